@@ -8,7 +8,6 @@
 
 #include "awmr/control/arming.h"
 #include "awmr/simulate/physics.h"
-#include "awmr/simulate/positioning.h"
 #include "awmr/simulate/scenario_guidance.h"
 #include "awmr/simulate/sensing.h"
 #include "command_injection.h"
@@ -171,7 +170,7 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
 
 Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor,
                                       const Progress& progress) {
-  const SimulateOptions options{.sample_time_s = setup.sample_time_s, .substeps = {}};
+  const SimulateOptions options{.sample_time_s = setup.sample_time_s};
   Physics physics(setup.plant, setup.force_max, setup.scenario, options);
   Sensing sensing(setup.scenario.sensors, setup.sample_time_s, run_seed(setup.scenario.seed, 0, 0));
   Positioning positioning(setup.scenario, setup.sample_time_s);

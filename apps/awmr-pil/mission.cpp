@@ -197,7 +197,7 @@ Mission mission_of(const Scenario& scenario) {
     const float bandwidth_radps = in_float(observer->bandwidth_radps);
     mission.observers = {{bandwidth_radps, in_float(observer->yaw_max_m)},
                          {bandwidth_radps, in_float(observer->surge_max)},
-                         observer->anti_windup};
+                         scenario.control.anti_windup};
   }
   return mission;
 }

@@ -248,10 +248,10 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
     return {};
   }
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, in.model.plant());
-  const Run exact = simulate(
-      in.setup.plant,
-      make_controller(plant, in.model.vehicle, in.gains.in(in.setup.mode), in.emit.split),
-      in.setup.scenario, in.setup.mode, {.sample_time_s = in.setup.sample_time_s, .substeps = {}});
+  const Run exact =
+      simulate(in.setup.plant,
+               make_controller(plant, in.model.vehicle, in.gains.in(in.setup.mode), in.emit.split),
+               in.setup.scenario, in.setup.mode, {.sample_time_s = in.setup.sample_time_s});
   AWMR_RETURN_IF_ERROR(failure_of(exact, in.setup.scenario));
   report.from_double = difference(report.chip.rows, exact);
   report.heading_apart_deg = heading_apart_deg(report.chip.rows, exact);

@@ -269,9 +269,9 @@ TEST(Compare, ChecksTheControllerOfEveryScenario) {
   Scenario observed = short_heading();
   observed.name = "observed";
   observed.control.observer =
-      ControlOptions::Observer{.bandwidth_radps = 2.0 / uncertain_model().vehicle.sample_time_s,
-                               .yaw_max_m = 0.04,
-                               .surge_max = 1.0};
+      ObserverGains<double>{.bandwidth_radps = 2.0 / uncertain_model().vehicle.sample_time_s,
+                            .yaw_max_m = 0.04,
+                            .surge_max = 1.0};
   Scenario unstable = short_heading();
   unstable.name = "unstable";
   unstable.control.lqi = LqiWeights<double>{

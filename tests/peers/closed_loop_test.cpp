@@ -51,8 +51,8 @@ TEST(ReferenceIntegrator, TheClosedLoopAgreesOverEverySampleInEveryMode) {
   constexpr double kSample_s = 0.01;
   const auto controller = make_controller(plant, paper_vehicle(), kPaperGains);
   for (const YawMode mode : kYawModes) {
-    const awmr::Run run = simulate(plant, controller, disturbed_turns(), mode,
-                                   {.sample_time_s = kSample_s, .substeps = {}});
+    const awmr::Run run =
+        simulate(plant, controller, disturbed_turns(), mode, {.sample_time_s = kSample_s});
     // Near rest, the simulator replaces each resistance by a chord. The reference uses the same
     // chord, because it is part of the simulated equations and no error of the integrator.
     const Plant<double> resolved = resolved_at_rest(plant, kSample_s / run.substeps);

@@ -83,8 +83,7 @@ TEST(ReferenceIntegrator, OpenLoopPositionsAgreeAfterAMinuteInEveryMode) {
   for (const double tau_turn_m : {0.0, 0.05, 0.4}) {
     for (const YawMode mode : kYawModes) {
       const Scenario scenario{"open loop", 60.0, {}, 0.0, OpenLoop{2.0, tau_turn_m}};
-      const awmr::Run run =
-          simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}});
+      const awmr::Run run = simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01});
       const RunRow& first = run.rows.front();
       const State<double> expected =
           reference({plant, first.force, first.steering_command_rad}, {}, 60.0);
@@ -107,8 +106,7 @@ TEST(ReferenceIntegrator, PositionsOnFourTyresAgreeAfterAMinuteInEveryMode) {
       for (const YawMode mode : kYawModes) {
         Scenario scenario{"open loop on tyres", 60.0, {}, 0.0, OpenLoop{1.4, tau_turn_m}};
         scenario.tyres = Tyres<double>{.friction = friction};
-        const awmr::Run run =
-            simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}});
+        const awmr::Run run = simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01});
         const RunRow& first = run.rows.front();
         // The reference also uses the chord that replaces each resistance near rest, because it is
         // part of the equations.

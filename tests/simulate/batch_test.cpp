@@ -100,9 +100,8 @@ std::vector<std::optional<double>> numbers_of(const Metrics& m) {
 
 Metrics evaluate(const BatchRun& run, const Scenario& scenario) {
   return metrics_of(
-      simulate(
-          run.plant, run.controller, scenario, run.mode,
-          {.sample_time_s = kSampleTime_s, .substeps = {}, .seed = run.seed, .sample = run.sample}),
+      simulate(run.plant, run.controller, scenario, run.mode,
+               {.sample_time_s = kSampleTime_s, .seed = run.seed, .sample = run.sample}),
       scenario, run.controller);
 }
 
@@ -489,7 +488,7 @@ TEST_F(Batch, RowsAreThoseOfSimulateInEveryShippedScenario) {
     const auto alone = batch_metrics(runs, scenario, arithmetic);
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const awmr::Run scalar = simulate(runs[i].plant, runs[i].controller, scenario, runs[i].mode,
-                                        {.sample_time_s = kSampleTime_s, .substeps = {}});
+                                        {.sample_time_s = kSampleTime_s});
       expect_same(driven[i].metrics, alone[i], scenario.name);
       const awmr::Run& run = driven[i].run;
       EXPECT_EQ(run.substeps, scalar.substeps);

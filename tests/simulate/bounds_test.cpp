@@ -78,7 +78,7 @@ void is_finite_bounded_and_within_limits(double beyond) {
   const auto controller = make_controller(plant, vehicle, {{3.0, 50.0, 12.0}, {2.0 * beyond, 0.5}});
   // Skips plants with time constants of microseconds, whose runs take long. Few of the random
   // plants are of this kind.
-  if (substeps_for(plant, 0.01) > 500) return;
+  if (substeps_for(plant, {}, 0.01) > 500) return;
   for (const YawMode mode : kYawModes) {
     const awmr::Run run = simulate(plant, controller, scenario, mode, {});
     RC_ASSERT(run.end != RunEnd::kFailed);
@@ -155,7 +155,7 @@ TEST(Bounds, StepsPerSampleDoNotOverflowTheirInteger) {
     if (which == 0) plant.mass_norm = 1e-12;
     if (which == 1) plant.sway_alpha = 1e12;
     if (which == 2) plant.steering_time_constant_s = 1e-12;
-    EXPECT_GT(substeps_for(plant, 0.01), 1000000) << which;
+    EXPECT_GT(substeps_for(plant, {}, 0.01), 1000000) << which;
     const Status refused = check_work(plant, "model.json", coasting(0.1), 0.01);
     ASSERT_FALSE(refused.has_value()) << which;
     const char* named[] = {"model.json:/s", "model.json:/sway/alpha",

@@ -137,8 +137,8 @@ TEST(Work, IsThatOfTheForcesThatActWhateverKeepsThemFromTheWheels) {
   empty.battery->to_s = 1e-3;
   empty.battery->share_end = 0.3;
   for (const Scenario& scenario : {driven_straight(), lagging, sagging, failing, empty}) {
-    const awmr::Run run = simulate(plant, controller, scenario, YawMode::kCombined,
-                                   {.sample_time_s = 1e-3, .substeps = {}});
+    const awmr::Run run =
+        simulate(plant, controller, scenario, YawMode::kCombined, {.sample_time_s = 1e-3});
     const Metrics metrics = metrics_of(run, scenario, controller);
     // Tolerance: the error of the rectangle rule is half a sample times the change of power, which
     // is at most 2 m/s times 2.
@@ -150,8 +150,8 @@ TEST(Work, OfCopperIsThatOfTheMotorsThatRun) {
   const Plant<double> plant = paper_plant();
   const auto controller = make_controller(plant, paper_vehicle(), {});
   const auto copper = [&](const Scenario& scenario) {
-    const awmr::Run run = simulate(plant, controller, scenario, YawMode::kCombined,
-                                   {.sample_time_s = 1e-3, .substeps = {}});
+    const awmr::Run run =
+        simulate(plant, controller, scenario, YawMode::kCombined, {.sample_time_s = 1e-3});
     return metrics_of(run, scenario, controller).energy_electric;
   };
   EXPECT_NEAR(copper(driven_straight()), 4.0 * 4.0 * 0.25, 1e-9);

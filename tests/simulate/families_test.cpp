@@ -38,8 +38,8 @@ TEST(Families, SettleAtTheSteadySpeedOfTheLawWithDeadZone) {
     // in open loop.
     controller.limits.dead_zone = 0.0;
     const Scenario scenario{"open loop", 5.0, {}, 0.0, OpenLoop{1.2, 0.0}};
-    const awmr::Run run = simulate(plant, controller, scenario, YawMode::kDifferential,
-                                   {.sample_time_s = 0.01, .substeps = {}});
+    const awmr::Run run =
+        simulate(plant, controller, scenario, YawMode::kDifferential, {.sample_time_s = 0.01});
     // The slowest time constant m'/g' is below 0.1 s, so the speed is steady after 5 s.
     EXPECT_NEAR(run.rows.back().state.u_mps, *steady_rate(c.surge, 1.2 - 4.0 * c.dead_zone), 1e-9)
         << c.name;
@@ -67,8 +67,7 @@ TEST(BackEmf, IsMadeUpForByTheController) {
   const Controller<double> controller = make_controller(plant, paper_vehicle(), kPaperGains);
   const Scenario scenario{"heading", 8.0, {}, 0.8, HeadingSteps{{{0.0, 0.5}}}};
   for (const YawMode mode : kYawModes) {
-    const awmr::Run run =
-        simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}});
+    const awmr::Run run = simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01});
     const RunRow& last = run.rows.back();
     // The tolerances are those of TheControllerHoldsSpeedAndHeadingWithEveryOne, where motors are
     // ideal.
@@ -89,8 +88,8 @@ TEST(BackEmf, FullVoltageGivesTheNoLoadSpeedReducedByResistance) {
   const Plant<double> plant = geared(0.8, surge);
   const Controller<double> controller = make_controller(plant, paper_vehicle(), kPaperGains);
   const Scenario scenario{"fast", 8.0, {}, 1.5, HeadingSteps{{{0.0, 0.0}}}};
-  const awmr::Run run = simulate(plant, controller, scenario, YawMode::kCombined,
-                                 {.sample_time_s = 0.01, .substeps = {}});
+  const awmr::Run run =
+      simulate(plant, controller, scenario, YawMode::kCombined, {.sample_time_s = 0.01});
   EXPECT_NEAR(run.rows.back().state.u_mps, *steady_rate(surge, 4.0, 4.0 * 0.8), 1e-6);
   EXPECT_EQ(run.rows.back().force.left, 1.0);
 }
@@ -120,8 +119,7 @@ TEST(FrontWheelDrive, HoldsSpeedAndHeadingInEveryModeWithAndWithoutBackEmf) {
     const Scenario scenario{"heading", 8.0, {}, 0.6, HeadingSteps{{{0.0, 0.5}}}};
     for (const YawMode mode : kYawModes) {
       const RunRow last =
-          simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}})
-              .rows.back();
+          simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01}).rows.back();
       // The tolerances are those of TheControllerHoldsSpeedAndHeadingWithEveryOne, where all four
       // wheels are driven.
       EXPECT_NEAR(last.state.u_mps, 0.6, 1e-3) << name_of(mode) << back_emf;
@@ -159,8 +157,7 @@ TEST(Families, TheControllerHoldsSpeedAndHeadingWithEveryOne) {
     const Controller<double> controller = make_controller(plant, paper_vehicle(), kPaperGains);
     const Scenario scenario{"heading", 8.0, {}, 0.8, HeadingSteps{{{0.0, 0.5}}}};
     for (const YawMode mode : kYawModes) {
-      const awmr::Run run =
-          simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}});
+      const awmr::Run run = simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01});
       const RunRow& last = run.rows.back();
       // The feed-forward is the plant's own law, so no steady error remains. The transient decays
       // with 1/lambda = 0.33 s; 8 s are 24 of them.

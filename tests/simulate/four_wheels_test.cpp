@@ -71,7 +71,7 @@ TEST(FourWheelRuns, StiffTyresTurnAsTheWheelsPoint) {
 /// Power of the wheels along their rolling direction minus tyre losses, over F_max.
 double net_power(const FourWheels<double>& vehicle, const RunRow& now, const RunRow& commanded) {
   const Plant<double>& p = vehicle.body;
-  const WheelForces<double> force = by_wheel(p, commanded.force);
+  const WheelForces<double> force = by_wheel(p.rear_driven, commanded.force);
   const WheelForces<double> x = tyre_forces(vehicle, now.state, force).along;
   const WheelSpeeds<double> w = wheel_speeds(p.front_axle_m, p.half_track_m, now.state);
   return x.front_left * w.front_left + x.front_right * w.front_right + x.rear_left * w.rear_left +
@@ -137,7 +137,7 @@ TEST(FourWheelRuns, DoNotDependOnTheStep) {
 TEST(FourWheelRuns, KeepTheModelsPlantAsItWas) {
   const Scenario scenario = heading_steps({30.0});
   const Plant<double> plant = paper_plant();
-  EXPECT_EQ(substeps_for(plant, scenario, 0.01), substeps_for(plant, 0.01));
+  EXPECT_EQ(substeps_for(plant, scenario, 0.01), substeps_for(plant, {}, 0.01));
   EXPECT_EQ(plant_text(scenario), "model");
   EXPECT_EQ(run_csv(driven(scenario, YawMode::kCombined), scenario).find("tyre"),
             std::string::npos);

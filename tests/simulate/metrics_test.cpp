@@ -363,7 +363,7 @@ double backward_mps_after_1_s(const Plant<double>& plant, const Vehicle& vehicle
   rolling.initial.u_mps = -speed_mps;
   rolling.sensors.emplace().speed_signed = false;
   const awmr::Run run = simulate(plant, make_controller(plant, vehicle, gains), rolling,
-                                 YawMode::kDifferential, {.sample_time_s = 0.01, .substeps = {}});
+                                 YawMode::kDifferential, {.sample_time_s = 0.01});
   return -run.rows.back().state.u_mps;
 }
 

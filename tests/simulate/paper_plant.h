@@ -12,7 +12,7 @@ inline awmr::Run run_open_loop(const Plant<double>& plant, const State<double>& 
                                YawMode mode = YawMode::kDifferential) {
   const Scenario scenario{"open loop", duration_s, start, 0.0, forces};
   return simulate(plant, make_controller(plant, paper_vehicle(), {}), scenario, mode,
-                  {.sample_time_s = 0.01, .substeps = {}});
+                  {.sample_time_s = 0.01});
 }
 
 }  // namespace awmr::testing

@@ -164,7 +164,7 @@ TEST(ScenarioFile, ReadsTheWholeWorldInSiUnits) {
   EXPECT_NEAR(s->actuators->steering_quantum_rad, radians(0.4), 1e-15);
   EXPECT_EQ(s->control.split, CombinedSplit::kFixedHalf);
   EXPECT_EQ(s->control.allocation, AllocationForm::kPaper);
-  EXPECT_TRUE(s->control.observer->anti_windup);
+  EXPECT_TRUE(s->control.anti_windup);
   EXPECT_EQ(s->control.lqi->heading_rad, radians(5.0));
   EXPECT_EQ(s->control.lqi->yaw_rate_radps, radians(20.0));
   EXPECT_EQ(s->control.lqi->integral_rad_s, radians(30.0));

@@ -155,9 +155,8 @@ TEST(RunOfAModel, IsItsPlantUnderItsOwnControllerAtItsSampleTime) {
   Scenario scenario = heading_steps({20.0, -40.0}, {.hold_s = 3.0});
   scenario.corner = {{ParameterId::kYawAlpha, true}};
   const auto controller = make_controller(*model.plant(), model.vehicle, kPaperGains);
-  const awmr::Run spelled_out =
-      simulate(*plant_for(scenario, model), controller, scenario, YawMode::kCombined,
-               {.sample_time_s = 0.02, .substeps = {}});
+  const awmr::Run spelled_out = simulate(*plant_for(scenario, model), controller, scenario,
+                                         YawMode::kCombined, {.sample_time_s = 0.02});
   const auto run = simulate(model, kPaperGains, scenario, YawMode::kCombined);
   ASSERT_TRUE(run) << to_text(run.error());
   ASSERT_EQ(run->rows.size(), spelled_out.rows.size());

@@ -123,7 +123,7 @@ TEST(Scrub, IsTheSameWithShorterSteps) {
 }
 
 TEST(Scrub, NeedsNoShorterSteps) {
-  EXPECT_EQ(substeps_for(scrubbing_plant(), 0.01), substeps_for(paper_plant(), 0.01));
+  EXPECT_EQ(substeps_for(scrubbing_plant(), {}, 0.01), substeps_for(paper_plant(), {}, 0.01));
 }
 
 TEST(Scrub, WorksAgainstTheTurn) {
@@ -134,8 +134,8 @@ TEST(Scrub, WorksAgainstTheTurn) {
   const auto controller = make_controller(plant, paper_vehicle(), kPaperGains);
   const auto work_m = [&](double duration_s) {
     scenario.duration_s = duration_s;
-    const awmr::Run run = simulate(plant, controller, scenario, YawMode::kDifferential,
-                                   {.sample_time_s = 0.01, .substeps = {}});
+    const awmr::Run run =
+        simulate(plant, controller, scenario, YawMode::kDifferential, {.sample_time_s = 0.01});
     return metrics_of(run, scenario, controller).tyre_work;
   };
   const double r = steady_rate(plant.yaw, 0.1 - kScrub_m).value();
@@ -154,8 +154,7 @@ TEST(Scrub, IsTheSameInABatch) {
     ASSERT_NE(batch.front().run.end, RunEnd::kFailed);
     const Metrics& metrics = batch.front().metrics;
     const Metrics alone = metrics_of(
-        simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}}),
-        scenario, controller);
+        simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01}), scenario, controller);
     // Tolerance: the run in a batch differs from simulate() only by rounding (batch_test.cpp).
     EXPECT_NEAR(*metrics.heading_iae_degs, *alone.heading_iae_degs, 1e-8);
     EXPECT_NEAR(metrics.tyre_work, alone.tyre_work, 1e-10);

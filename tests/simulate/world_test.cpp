@@ -293,9 +293,8 @@ TEST(ActuatorSteps, CommandsAreMultiplesOfTheirSteps) {
   }
 }
 
-ControlOptions::Observer observer(bool anti_windup) {
-  return {.bandwidth_radps = 5.0, .yaw_max_m = 0.3, .surge_max = 0.5, .anti_windup = anti_windup};
-}
+constexpr ObserverGains<double> kObserver{
+    .bandwidth_radps = 5.0, .yaw_max_m = 0.3, .surge_max = 0.5};
 
 /// Errors of neighbouring samples have the correlation exp(-T_s/tau) and the given standard
 /// deviation.
@@ -382,7 +381,7 @@ TEST(Observer, RemovesTheSteadyErrorOfAConstantDisturbance) {
   for (const YawMode mode : kYawModes) {
     s.control.observer.reset();
     const State<double> without = run_of(s, mode).rows.back().state;
-    s.control.observer = observer(true);
+    s.control.observer = kObserver;
     const State<double> with = run_of(s, mode).rows.back().state;
     EXPECT_GT(std::abs(without.psi_rad), 0.05) << name_of(mode);
     EXPECT_LT(std::abs(with.psi_rad), 1e-4) << name_of(mode);
@@ -395,7 +394,7 @@ TEST(Observer, OfTheGainsWorksAsThatOfTheScenarioWhichComesFirst) {
   Scenario bare = straight();
   bare.disturbance.yaw = {constant(0.01)};
   Scenario own = bare;
-  own.control.observer = observer(true);
+  own.control.observer = kObserver;
   Gains<double> tuned = kPaperGains;
   tuned.observer = {5.0, 0.3, 0.5};
   Gains<double> slower = kPaperGains;
@@ -403,7 +402,7 @@ TEST(Observer, OfTheGainsWorksAsThatOfTheScenarioWhichComesFirst) {
   const auto rows = [](const Scenario& s, const Gains<double>& gains) {
     const auto c = make_controller(paper_plant(), paper_vehicle(), gains);
     const awmr::Run run =
-        simulate(paper_plant(), c, s, YawMode::kCombined, {.sample_time_s = 0.01, .substeps = {}});
+        simulate(paper_plant(), c, s, YawMode::kCombined, {.sample_time_s = 0.01});
     return run_csv(run, s);
   };
   EXPECT_EQ(rows(bare, tuned), rows(own, kPaperGains));
@@ -418,7 +417,7 @@ TEST(Observer, OfTheGainsWorksAsThatOfTheScenarioWhichComesFirst) {
 
 TEST(Observer, RefusesABandwidthTooHighForTheSampleTime) {
   Scenario s = straight();
-  s.control.observer = observer(true);
+  s.control.observer = kObserver;
   s.control.observer->bandwidth_radps = 100.0;
   const Model model = fitted_paper_model();
   const auto refused = plant_for(s, model);
@@ -433,7 +432,8 @@ TEST(Observer, RefusesABandwidthTooHighForTheSampleTime) {
 double overshoot_deg(bool anti_windup) {
   Scenario s = straight(20.0);
   s.guidance = HeadingSteps{{{0.0, radians(90.0)}}};
-  s.control.observer = observer(anti_windup);
+  s.control.observer = kObserver;
+  s.control.anti_windup = anti_windup;
   const awmr::Run run = run_of(s, YawMode::kSteering);
   const Plant<double> plant = paper_plant();
   return *metrics_of(run, s, make_controller(plant, paper_vehicle(), kPaperGains)).overshoot_deg;

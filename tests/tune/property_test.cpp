@@ -82,7 +82,7 @@ TEST(TunedGains, DoTheSameAtTenTimesFinerStepsAndWithFourWheels) {
   Scenario four_wheels = scenario;  // a fault without loss of force, which selects the
                                     // wheel-by-wheel equations
   four_wheels.faults = {{.wheels = {Wheel::kFrontLeft}, .window = {}, .share = 1.0}};
-  const int steps = substeps_for(plant, 0.01);
+  const int steps = substeps_for(plant, {}, 0.01);
   for (const YawMode mode : kYawModes) {
     const awmr::Run run = simulate(plant, controller, scenario, mode, {});
     const awmr::Run finer = simulate(plant, controller, scenario, mode,

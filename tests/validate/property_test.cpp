@@ -31,7 +31,8 @@ bool is_stiff(const Plant<double>& plant) {
     const double w = steady_rate(law, force).value_or(0.0);
     return w > 0.0 ? law.alpha * law.beta * std::pow(w, law.beta - 1.0) / inertia : 0.0;
   };
-  return substeps_for(plant, 0.01) > 10 || decay_rate(plant.surge, plant.mass_norm, 2.0) > 200.0 ||
+  return substeps_for(plant, {}, 0.01) > 10 ||
+         decay_rate(plant.surge, plant.mass_norm, 2.0) > 200.0 ||
          decay_rate(plant.yaw, plant.inertia_norm, 0.4) > 200.0;
 }
 

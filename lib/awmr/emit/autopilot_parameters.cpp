@@ -30,13 +30,6 @@ TableShape shape_of(const EmittedTable& table) {
 /// Returns the value rounded to float32, as on the chip; -0 becomes 0.
 float single(double value) { return static_cast<float>(value) + 0.0F; }
 
-/// Range of the wheel force F' (divided by F_max) that the allocation can request: the range in
-/// vehicle.json, reduced by the dead zone of the motors as in make_controller().
-Interval force_beyond_dead_zone(const Plant<double>& plant, const Vehicle& vehicle) {
-  const Controller<double> controller = make_controller(plant, vehicle, {});
-  return {controller.limits.force_min, controller.limits.force_max};
-}
-
 /// Parameters of the friction at rest, the motors' dead zone and their back-EMF; absent if the
 /// model has none of them.
 std::optional<RestBlock> rest_of(const Plant<double>& plant, const ModeGains& gains) {
@@ -75,7 +68,7 @@ Controller<float> float_controller(const Plant<double>& plant, const Model& mode
   const double steering_max_rad = radians(model.vehicle.steering_max_deg);
   controller.limits.front_axle_m = single(plant.front_axle_m);
   controller.limits.half_track_m = single(plant.half_track_m);
-  const Interval force = force_beyond_dead_zone(plant, model.vehicle);
+  const Interval force = forces_beyond_dead_zone(model.vehicle.wheel_force, plant.wheel_dead_zone);
   controller.limits.force_min = single(force.lo);
   controller.limits.force_max = single(force.hi);
   controller.limits.steering_max_rad = single(steering_max_rad);
@@ -236,7 +229,8 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const ModeG
   AWMR_RETURN_IF_ERROR(check_drive(plant, model));
   AWMR_RETURN_IF_ERROR(check_family(plant, options.resistance));
 
-  const double full_force = 4.0 * force_beyond_dead_zone(plant, model.vehicle).hi;
+  const double full_force =
+      4.0 * forces_beyond_dead_zone(model.vehicle.wheel_force, plant.wheel_dead_zone).hi;
   const ChipLaw surge = chip_law("surge", plant.surge, full_force);
   const ChipLaw yaw = chip_law("yaw", plant.yaw, full_force * plant.half_track_m);
 

@@ -313,13 +313,13 @@ State<T> side_driven_rates(const Plant<T>& p, const State<T>& s, const SideForce
 }
 
 /// The command of each wheel if both wheels of a side get the same command, `f`; 0 for rear wheels
-/// that are not driven.
+/// that are not driven. `rear_driven`: Plant::rear_driven.
 template <class T>
-WheelForces<T> by_wheel(const Plant<T>& p, const SideForces<T>& f) {
-  return {f.left, f.right, p.rear_driven * f.left, p.rear_driven * f.right};
+WheelForces<T> by_wheel(const T& rear_driven, const SideForces<T>& f) {
+  return {f.left, f.right, rear_driven * f.left, rear_driven * f.right};
 }
 template <class T>
-const WheelForces<T>& by_wheel(const Plant<T>&, const WheelForces<T>& f) {
+const WheelForces<T>& by_wheel(const T&, const WheelForces<T>& f) {
   return f;
 }
 
@@ -333,7 +333,7 @@ template <class T, class Forces>
 T scrub_moment_m(const Plant<T>& p, const State<T>& s, const Forces& f) {
   using math::cos;
   using math::sin;
-  const WheelForces<T> e = detail::wheel_forces(p, s, by_wheel(p, f));
+  const WheelForces<T> e = detail::wheel_forces(p, s, by_wheel(p.rear_driven, f));
   const detail::YawMoments<T> tau =
       detail::yaw_moments(p, e, T(cos(s.steering_rad)), T(sin(s.steering_rad)));
   return p.yaw_scrub_m * differential_share(tau.steering_m, T(tau.front_diff_m + tau.rear_diff_m));
@@ -354,7 +354,7 @@ State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& 
                      const T& steering_command_rad) {
   using math::any;
   if (any(p.back_emf_s_per_m > T(0.0) || p.rear_driven < T(1.0))) {
-    return state_rates(p, s, by_wheel(p, f), steering_command_rad);
+    return state_rates(p, s, by_wheel(p.rear_driven, f), steering_command_rad);
   }
   return side_driven_rates(p, s, beyond_dead_zone(f, p.wheel_dead_zone), steering_command_rad);
 }

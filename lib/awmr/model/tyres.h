@@ -139,7 +139,7 @@ TyreForces<T> tyre_forces(const FourWheels<T>& p, const State<T>& s, const Wheel
 ///   P = -sum of F'y_i s_i
 template <class T, class Forces>
 T tyre_power_mps(const FourWheels<T>& p, const State<T>& s, const Forces& f) {
-  const WheelForces<T> y = tyre_forces(p, s, by_wheel(p.body, f)).across;
+  const WheelForces<T> y = tyre_forces(p, s, by_wheel(p.body.rear_driven, f)).across;
   const WheelSpeeds<T> slides = side_speeds(p.body.front_axle_m, p.body.half_track_m, s);
   return -((y.front_left * slides.front_left + y.front_right * slides.front_right) +
            (y.rear_left * slides.rear_left + y.rear_right * slides.rear_right));
@@ -158,7 +158,7 @@ State<T> state_rates(const FourWheels<T>& p, const State<T>& s, const Forces& f,
                      const T& steering_command_rad) {
   using math::cos;
   using math::sin;
-  const TyreForces<T> made = tyre_forces(p, s, by_wheel(p.body, f));
+  const TyreForces<T> made = tyre_forces(p, s, by_wheel(p.body.rear_driven, f));
   const WheelForces<T>& x = made.along;
   const WheelForces<T>& y = made.across;
   const T cos_d = cos(s.steering_rad);

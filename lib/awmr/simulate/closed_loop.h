@@ -18,7 +18,6 @@
 #include "awmr/simulate/metering.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/physics.h"
-#include "awmr/simulate/positioning.h"
 #include "awmr/simulate/scenario_guidance.h"
 #include "awmr/simulate/sensing.h"
 
@@ -274,8 +273,8 @@ RunRow ClosedLoop<Row>::row_of(std::size_t run, double t_s) const {
           .clearance_m = run_of<double>(runs_->clearance_m, run),
           .tyre_power_mps = run_of<double>(v.tyre_power_mps, run),
           .acting = v.setup.is_by_wheel ? run_of<WheelForces<double>>(v.wheels, run)
-                                        : at_all_wheels(run_of<SideForces<double>>(v.arriving, run),
-                                                        run_of<double>(v.plant.rear_driven, run))};
+                                        : by_wheel(run_of<double>(v.plant.rear_driven, run),
+                                                   run_of<SideForces<double>>(v.arriving, run))};
 }
 
 /// Appends the row of sample k to each active run. If a number in the row is not finite, the run

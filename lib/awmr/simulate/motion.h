@@ -42,13 +42,6 @@ SideForces<T> through_motors(const MotorLag& lag, const SideForces<T>& command,
   return {command.left + behind.left * mean_share, command.right + behind.right * mean_share};
 }
 
-/// Distributes left and right forces to the wheels: both wheels of a side get the same force, but
-/// rear wheels that are not driven (Plant::rear_driven is 0) get none.
-template <class T>
-WheelForces<T> at_all_wheels(const SideForces<T>& force, const T& rear_driven) {
-  return {force.left, force.right, rear_driven * force.left, rear_driven * force.right};
-}
-
 /// Returns `arriving`, the motor forces after lag, with 0 for each motor whose command is 0: with
 /// back-EMF, this command switches the motor off at once. If the lag kept the motor on for a while,
 /// its back-EMF would brake the wheel (motor_force() in dynamics.h).

@@ -45,6 +45,13 @@ double steps_of_sample(const Plant<double>& plant, bool on_tyres, double sample_
   return std::max(1.0, std::ceil(sample_time_s / step_limit(plant, on_tyres).step_s - 1e-9));
 }
 
+MotorLag motor_lag(const std::optional<Actuators>& actuators, double sample_time_s) {
+  const double tau_s = actuators ? actuators->motor_time_constant_s : 0.0;
+  if (!(tau_s > 0.0)) return {};
+  const double left_over = std::exp(-sample_time_s / tau_s);
+  return {left_over, (1.0 - left_over) * tau_s / sample_time_s};
+}
+
 }  // namespace
 
 /// The step h is limited by the time constants T that do not depend on speed: sway resistance
@@ -75,10 +82,6 @@ StepLimit step_limit(const Plant<double>& with_friction, bool on_tyres) {
   return limit;
 }
 
-int substeps_for(const Plant<double>& plant, double sample_time_s) {
-  return substeps_for(plant, Scenario{}, sample_time_s);
-}
-
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s) {
   const double count = steps_of_sample(plant, scenario.tyres.has_value(), sample_time_s);
   return count < kMaxSubsteps ? static_cast<int>(count) : kMaxSubsteps;
@@ -94,7 +97,7 @@ VehicleSetup vehicle_setup(const Scenario& scenario, double sample_time_s) {
   setup.lag = motor_lag(scenario.actuators, sample_time_s);
   setup.has_battery = scenario.battery.has_value();
   if (scenario.battery) setup.battery_sag = scenario.battery->sag;
-  setup.is_by_wheel = forces_differ_by_wheel(scenario);
+  setup.is_by_wheel = !scenario.faults.empty() || !scenario.patches.empty();
   setup.is_on_tyres = scenario.tyres.has_value();
   setup.tyres = scenario.tyres.value_or(Tyres<double>{});
   setup.push.is_loaded = scenario.disturbance.any();
@@ -131,10 +134,6 @@ Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scena
                         : resolved_at_rest(without_friction(plant), step_s);
 }
 
-bool forces_differ_by_wheel(const Scenario& scenario) {
-  return !scenario.faults.empty() || !scenario.patches.empty();
-}
-
 WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>& plant,
                                   const State<double>& state, double t_s,
                                   const SideForces<double>& force) {
@@ -159,13 +158,6 @@ WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>&
     }
   }
   return {wheels[0], wheels[1], wheels[2], wheels[3]};
-}
-
-MotorLag motor_lag(const std::optional<Actuators>& actuators, double sample_time_s) {
-  const double tau_s = actuators ? actuators->motor_time_constant_s : 0.0;
-  if (!(tau_s > 0.0)) return {};
-  const double left_over = std::exp(-sample_time_s / tau_s);
-  return {left_over, (1.0 - left_over) * tau_s / sample_time_s};
 }
 
 double battery_share(const Battery& battery, double t_s) {

@@ -41,20 +41,12 @@ class Physics {
   RunDisturbance disturbance_;
 };
 
-/// True if front and rear wheel of a side can have different forces, because the scenario has motor
-/// faults or slippery discs.
-bool forces_differ_by_wheel(const Scenario& scenario);
-
 /// Returns the wheel forces at `t_s`: the motor commands `force`, reduced by motor faults and
 /// limited on slippery discs. Assumes the rear axle as far from the centre of gravity as the front
 /// axle.
 WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>& plant,
                                   const State<double>& state, double t_s,
                                   const SideForces<double>& force);
-
-/// Returns the lag of the scenario's motors over a sample. There is no lag if `actuators` is
-/// absent.
-MotorLag motor_lag(const std::optional<Actuators>& actuators, double sample_time_s);
 
 /// Largest motor command at `t_s` divided by its value with a full battery, in [0, 1]. The voltage
 /// drop under load (sag) is not included.

@@ -144,4 +144,20 @@ void Sensing::receive_fixes(std::size_t k, const State<double>& truth, Sensed& s
   sensed.fix_taken_s = fix_taken_s_;
 }
 
+double fix_noise_m(const Gps& gps) {
+  return std::sqrt(gps.x.noise * gps.x.noise + gps.x.quantum * gps.x.quantum / 12.0);
+}
+
+Positioning::Positioning(const Scenario& scenario, double sample_time_s) {
+  if (!estimates_position(scenario)) return;
+  const Gps& gps = *scenario.sensors->gps;
+  estimate_.emplace(position_filter<double>(fix_noise_m(gps), gps.latency_s, sample_time_s));
+}
+
+Position<double> Positioning::step(double t_s, const Sensed& sensed) {
+  if (!estimate_) return sensed.position_m;
+  return estimate_->step({sensed.position_m, t_s - sensed.fix_taken_s, sensed.is_fix_new},
+                         sensed.motion);
+}
+
 }  // namespace awmr

@@ -1,5 +1,5 @@
-/// Sensor models: sampling, delay, bias, noise and quantisation of the measurements.
-/// Private to this folder.
+/// Sensor models: sampling, delay, bias, noise and quantisation of the measurements, and the
+/// position that the guidance gets from them. Private to this folder.
 #pragma once
 
 #include <optional>
@@ -7,10 +7,11 @@
 
 #include "awmr/control/controller.h"
 #include "awmr/control/guidance/waypoints.h"
+#include "awmr/control/position_estimate.h"
 #include "awmr/model/state.h"
 #include "awmr/simulate/batch.h"
 #include "awmr/simulate/disturbance.h"
-#include "awmr/simulate/world.h"
+#include "awmr/simulate/scenario.h"
 
 namespace awmr {
 
@@ -71,6 +72,24 @@ class Sensing {
   Position<double> fix_m_{};  ///< the last fix
   double fix_taken_s_ = 0.0;
   std::size_t next_fix_ = 0;  ///< number of the next fix that will arrive
+};
+
+/// Standard deviation of a fix on each axis, m, caused by noise and quantisation.
+double fix_noise_m(const Gps& gps);
+
+/// Computes the position for the guidance. If the scenario has a GPS, this is the position estimate
+/// of the firmware, or the last fix if the scenario disables the estimate. Else it is the true
+/// position.
+class Positioning {
+ public:
+  Positioning(const Scenario& scenario, double sample_time_s);
+  /// Returns the position at the time `t_s`. Call it once per sample, in order.
+  Position<double> step(double t_s, const Sensed& sensed);
+  /// Number of resets of the estimate so far.
+  int resets() const { return estimate_ ? estimate_->resets : 0; }
+
+ private:
+  std::optional<PositionEstimate<double>> estimate_;
 };
 
 }  // namespace awmr

@@ -29,9 +29,7 @@ namespace {
 /// 0: none. The LQI does not use the observer of the gains, which was tuned for the sliding mode.
 ObserverGains<double> observer_in(const Scenario& scenario, const Gains<double>& gains) {
   ObserverGains<double> observer = scenario.control.lqi ? ObserverGains<double>{} : gains.observer;
-  if (const auto& own = scenario.control.observer) {
-    observer = {own->bandwidth_radps, own->yaw_max_m, own->surge_max};
-  }
+  if (scenario.control.observer) observer = *scenario.control.observer;
   // A constant thrust replaces the speed law, so a surge observer has no effect.
   if (scenario.held_tau_speed()) observer.surge_max = 0.0;
   return observer;
@@ -76,7 +74,7 @@ ControllerSetup controller_setup(const Scenario& scenario, const Controller<doub
           .is_open_loop = is_open_loop,
           .holds_tau_speed = scenario.held_tau_speed().has_value(),
           .is_lqi = scenario.control.lqi.has_value() && !is_open_loop,
-          .anti_windup = !scenario.control.observer || scenario.control.observer->anti_windup,
+          .anti_windup = scenario.control.anti_windup,
           .sample_time_s = sample_time_s};
 }
 
@@ -120,7 +118,7 @@ std::size_t samples_in(double duration_s, double sample_time_s) {
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
                                    const Gains<double>& gains, CombinedSplit split) {
   const double zone = plant.wheel_dead_zone;
-  const double backward = vehicle.wheel_force.lo < -zone ? vehicle.wheel_force.lo + zone : 0.0;
+  const Interval force = forces_beyond_dead_zone(vehicle.wheel_force, zone);
   return {.surge = feed_forward(plant.surge),
           .yaw = feed_forward(plant.yaw, gains.heading.friction_width_radps),
           .mass_norm = plant.mass_norm,
@@ -128,8 +126,8 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
           .gains = gains,
           .limits = {.front_axle_m = plant.front_axle_m,
                      .half_track_m = plant.half_track_m,
-                     .force_min = zone > 0.0 ? backward : vehicle.wheel_force.lo,
-                     .force_max = vehicle.wheel_force.hi - zone,
+                     .force_min = force.lo,
+                     .force_max = force.hi,
                      .steering_max_rad = plant.steering_max_rad,
                      .steering_max_tan_half = tan_half(plant.steering_max_rad),
                      .split = split,
@@ -210,8 +208,8 @@ Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scena
   const Motion motion = model.simulated_motion();
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model, motion));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
-  Run run = simulate(plant, controller, scenario, mode,
-                     {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}});
+  Run run =
+      simulate(plant, controller, scenario, mode, {.sample_time_s = model.vehicle.sample_time_s});
   if (motion == Motion::kStraight) AWMR_RETURN_IF_ERROR(check_straight(run, scenario, model));
   AWMR_RETURN_IF_ERROR(failure_of(run, scenario));
   return run;

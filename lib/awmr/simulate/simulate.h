@@ -87,7 +87,7 @@ struct SimulateOptions {
   double sample_time_s = 0.01;
   /// RK4 steps per sample, > 0; set it only to study the integration error. Absent: the result of
   /// substeps_for().
-  std::optional<int> substeps;
+  std::optional<int> substeps = {};
   /// Seed of the simulation. Together with the scenario's own seed, it determines all random
   /// numbers.
   std::uint64_t seed = 0;
@@ -104,10 +104,8 @@ inline constexpr double kMaxSteps = 1e8;
 inline constexpr int kMaxSubsteps = 100'000'000;
 
 /// Returns the number of RK4 steps per sample, in [1, kMaxSubsteps]. They are short enough for
-/// those time constants of the plant that do not depend on speed (step_limit() in physics.h).
-int substeps_for(const Plant<double>& plant, double sample_time_s);
-/// Same as above, for a scenario. If the scenario has tyres, their forces replace the sway and yaw
-/// resistance of the plant.
+/// those time constants of the plant that do not depend on speed (step_limit() in physics.h). If the
+/// scenario has tyres, their forces replace the sway and yaw resistance of the plant.
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
 /// Makes a controller with these gains, whose model is the plant: it feeds forward the plant's

@@ -78,7 +78,7 @@ double turned_degps(const Model& model, double tau_turn_m,
   turn.tyres = tyres;
   const YawMode mode = model.vehicle.has_steering() ? YawMode::kSteering : YawMode::kDifferential;
   const Run run = simulate(plant, make_controller(plant, model.vehicle, kPaperGains), turn, mode,
-                           {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}});
+                           {.sample_time_s = model.vehicle.sample_time_s});
   return std::abs(degrees(run.rows.back().state.r_radps));
 }
 

@@ -89,26 +89,16 @@ decltype(auto) body_of(const View& view, const Vehicles<Row>& v) {
 template <class View, class Row>
 WheelForces<typename View::Number> acting_forces(const View& view, const Vehicles<Row>& v) {
   if (v.setup.is_by_wheel) return view(v.wheels);
-  return at_all_wheels(view(v.arriving), view(v.plant.rear_driven));
+  return by_wheel(view(v.plant.rear_driven), view(v.arriving));
 }
 
 template <class View, class Row>
-AWMR_WHOLE void dissipate_on_tyres(const View& view, Vehicles<Row>& v) {
-  view.store(tyre_power_mps(body_of<true>(view, v), view(v.state), view(v.force)),
-             v.tyre_power_mps);
-}
-
-template <class View, class Row>
-AWMR_WHOLE void dissipate_by_scrub(const View& view, Vehicles<Row>& v) {
-  view.store(scrub_power_mps(view(v.plant), view(v.state), view(v.force)), v.tyre_power_mps);
-}
-
-template <class View, class Row>
-void dissipate(const View& view, Vehicles<Row>& v) {
+AWMR_WHOLE void dissipate(const View& view, Vehicles<Row>& v) {
   if (v.setup.is_on_tyres) {
-    dissipate_on_tyres(view, v);
+    view.store(tyre_power_mps(body_of<true>(view, v), view(v.state), view(v.force)),
+               v.tyre_power_mps);
   } else if (v.setup.has_scrub) {
-    dissipate_by_scrub(view, v);
+    view.store(scrub_power_mps(view(v.plant), view(v.state), view(v.force)), v.tyre_power_mps);
   }
 }
 

@@ -147,17 +147,11 @@ struct CornerParameter {
 struct ControlOptions {
   /// how combined mode distributes the moment at limits
   CombinedSplit split = CombinedSplit::kRedistribute;
-  struct Observer {
-    double bandwidth_radps = 0.0;  ///< L of DisturbanceObserver, > 0
-    /// largest disturbance in yaw that is compensated: moment divided by F_max, m, > 0
-    double yaw_max_m = 0.0;
-    /// largest disturbance in surge that is compensated: force divided by F_max, > 0
-    double surge_max = 0.0;
-    /// true: the observer gets the commands after the limits. false: before the limits; a saturated
-    /// actuator then looks like a disturbance, and the estimate grows without reason (wind-up).
-    bool anti_windup = true;
-  };
-  std::optional<Observer> observer;
+  /// disturbance observer with bandwidth > 0; absent: that of the gains
+  std::optional<ObserverGains<double>> observer;
+  /// true: the observer gets the commands after the limits. false: before the limits; a saturated
+  /// actuator then looks like a disturbance, and the estimate grows without reason (wind-up).
+  bool anti_windup = true;
   std::optional<LqiWeights<double>> lqi;  ///< LQI heading law; absent: the sliding mode
   /// form of the allocation; absent: that of the vehicle
   std::optional<AllocationForm> allocation;

@@ -185,20 +185,19 @@ std::optional<LqiWeights<double>> read_heading_law(JsonObject& json) {
       .tau_turn_m = json.number("tau_turn_m", kLqiMoment_m)};
 }
 
-ControlOptions::Observer read_observer(JsonObject& json) {
-  return {.bandwidth_radps = json.number("bandwidth_radps", kRate),
-          .yaw_max_m = json.number("yaw_max_m", kRate),
-          .surge_max = json.number("surge_max", kRate),
-          .anti_windup = json.boolean("anti_windup")};
-}
-
 ControlOptions read_control(JsonObject& json) {
   ControlOptions control;
   if (json.has("combined_split"))
     control.split = json.choice("combined_split", kCombinedSplitNames);
   if (json.has("allocation")) control.allocation = json.choice("allocation", kAllocationFormNames);
   control.lqi = json.optional_object("heading_law", read_heading_law).value_or(std::nullopt);
-  control.observer = json.optional_object("disturbance_observer", read_observer);
+  control.observer = json.optional_object("disturbance_observer", [&](JsonObject& object) {
+    const ObserverGains<double> observer{.bandwidth_radps = object.number("bandwidth_radps", kRate),
+                                         .yaw_max_m = object.number("yaw_max_m", kRate),
+                                         .surge_max = object.number("surge_max", kRate)};
+    control.anti_windup = object.boolean("anti_windup");
+    return observer;
+  });
   return control;
 }
 

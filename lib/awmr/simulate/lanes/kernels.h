@@ -13,17 +13,11 @@ namespace lanes {
 /// The functions of the closed loop, compiled for one instruction set.
 using Kernel = LoopSteps<Row>;
 
-}  // namespace lanes
-}  // namespace awmr
-
 extern "C" {
-extern const awmr::lanes::Kernel awmr_lanes_avx2;
-extern const awmr::lanes::Kernel awmr_lanes_avx512;
-extern const awmr::lanes::Kernel awmr_lanes_neon;
+extern const Kernel awmr_lanes_avx2;
+extern const Kernel awmr_lanes_avx512;
+extern const Kernel awmr_lanes_neon;
 }
-
-namespace awmr {
-namespace lanes {
 
 /// Returns the kernels in this program that the processor can run, those with the widest registers
 /// first. If there is none, simulate() computes one run at a time.
