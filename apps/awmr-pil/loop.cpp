@@ -178,7 +178,7 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
   // Copy of the sensed values, with the estimated position; the host's guidance in double uses it.
   Sensed located = sensed;
   located.position_m = positioning.step(0.0, sensed);
-  ScenarioGuidance guidance(setup.scenario, setup.sample_time_s, located);
+  ScenarioGuidance guidance(setup.scenario, setup.sample_time_s);
   if (!setup.mission.points.points_m.empty()) {
     AWMR_RETURN_IF_ERROR(executor.follow(setup.mission.points));
   }

@@ -165,9 +165,11 @@ Status note_run(const SimulateCommand& command, const Scenario& scenario, const 
   }
   std::ranges::move(unattainable_requests(scenario, model), std::back_inserter(findings));
   if (auto finding = tyres_differ(scenario, model)) findings.push_back(*finding);
-  note_extrapolation(model, metrics.yaw_rate_max_degps,
-                     fmt::format("{}, {}", scenario.name, name_of(command.mode)),
-                     turn_commands(scenario), findings);
+  if (auto finding = extrapolation_finding(
+          model.file, measured_yaw_rate_degps(model), metrics.yaw_rate_max_degps,
+          fmt::format("{}, {}", scenario.name, name_of(command.mode)), turn_commands(scenario))) {
+    findings.push_back(*std::move(finding));
+  }
   return {};
 }
 

@@ -201,32 +201,6 @@ TEST(ElectricWork, IsThatOfTheCopperAndOfTheWheels) {
   EXPECT_DOUBLE_EQ(*electric_work_j(metrics, vehicle, 0.5), 20.0 * 3.0 + 10.0 / 0.5 * 2.0);
 }
 
-TEST(Validity, ReportsTheFastestOfSeveralRuns) {
-  struct Evaluated {
-    Metrics metrics;
-    std::string name;
-  };
-  Model model = fitted_paper_model();
-  TrialPoint turn;
-  turn.kind = TrialKind::kTurning;
-  turn.measured = radians(15.0);
-  model.record.trials = {turn};
-  std::vector<Evaluated> runs(3);
-  const auto where = [](const Evaluated& run) { return run.name; };
-  const auto commands = [](const Evaluated& run) {
-    return TurnCommands{.rate_max_degps = run.name == "the fastest" ? 50.0 : 20.0};
-  };
-  EXPECT_TRUE(extrapolation_in(model, runs, where, commands).empty());
-  runs[1].metrics.yaw_rate_max_degps = 90.0;
-  runs[1].name = "the fastest";
-  runs[2].metrics.yaw_rate_max_degps = 40.0;
-  const std::vector<Finding> findings = extrapolation_in(model, runs, where, commands);
-  ASSERT_EQ(findings.size(), 1U);
-  EXPECT_NE(findings[0].message.find("the fastest"), std::string::npos);
-  EXPECT_NE(findings[0].message.find("from 50 to 15 deg/s"), std::string::npos);
-  EXPECT_TRUE(extrapolation_in(model, std::vector<Evaluated>{}, where, commands).empty());
-}
-
 /// Message of `beyond-trials` for a turn at 40 deg/s and a measured rate of 15 deg/s.
 std::string extrapolated(const TurnCommands& commands) {
   const auto finding = extrapolation_finding("model.json", 15.0, 40.0, "run", commands);
@@ -274,10 +248,12 @@ TEST(Validity, WarnsIfHeadingsAreNotRateLimited) {
 
 TEST(Validity, WarnsOfATurnFasterThanTheTrials) {
   Model model = fitted_paper_model();
-  std::vector<Finding> findings;
+  const auto finding_at = [&](double fastest_degps) {
+    return extrapolation_finding(model.file, measured_yaw_rate_degps(model), fastest_degps,
+                                 "C3, combined", {});
+  };
   EXPECT_FALSE(measured_yaw_rate_degps(model));
-  note_extrapolation(model, 100.0, "run", {}, findings);
-  EXPECT_TRUE(findings.empty());  // a model without turning trials has no measured range
+  EXPECT_FALSE(finding_at(100.0));  // a model without turning trials has no measured range
   const auto trial = [](TrialKind kind, double measured) {
     TrialPoint point;
     point.kind = kind;
@@ -287,19 +263,15 @@ TEST(Validity, WarnsOfATurnFasterThanTheTrials) {
   model.record.trials = {trial(TrialKind::kTurning, radians(9.0)),
                          trial(TrialKind::kTurning, radians(15.0)), trial(TrialKind::kSurge, 1.6)};
   EXPECT_NEAR(*measured_yaw_rate_degps(model), 15.0, 1e-12);
-  note_extrapolation(model, 17.0, "run", {}, findings);
-  EXPECT_TRUE(findings.empty());
-  note_extrapolation(model, 18.1, "run", {}, findings);  // more than 1.2 times 15
-  EXPECT_EQ(findings.size(), 1U);
-  findings.clear();
-  note_extrapolation(model, 77.0, "C3, combined", {}, findings);
-  ASSERT_EQ(findings.size(), 1U);
-  EXPECT_EQ(findings[0].code, "beyond-trials");
-  EXPECT_NE(findings[0].message.find("C3, combined"), std::string::npos);
-  EXPECT_NE(findings[0].message.find("5.1 times"), std::string::npos);
+  EXPECT_FALSE(finding_at(17.0));
+  EXPECT_TRUE(finding_at(18.1));  // more than 1.2 times 15
+  const auto finding = finding_at(77.0);
+  ASSERT_TRUE(finding);
+  EXPECT_EQ(finding->code, "beyond-trials");
+  EXPECT_NE(finding->message.find("C3, combined"), std::string::npos);
+  EXPECT_NE(finding->message.find("5.1 times"), std::string::npos);
   model.vehicle.yaw_rate_max_degps = 80.0;
-  note_extrapolation(model, 77.0, "run", {}, findings);
-  EXPECT_EQ(findings.size(), 1U);
+  EXPECT_FALSE(finding_at(77.0));
 }
 
 std::vector<std::string> codes_of(const std::vector<Finding>& findings) {

@@ -44,16 +44,17 @@ void expect_on_first_leg(const GuidanceOutput& output, double cross_track_m) {
 TEST(ScenarioGuidance, GoesToOnePointAfterTheOtherAndSlowsDownBeforeTheLast) {
   const Scenario scenario = along(WaypointPath{
       .points_m = {{10.0, 0.0}, {10.0, 10.0}}, .acceptance_m = 1.0, .slow_down_m = 4.0});
-  ScenarioGuidance guidance(scenario, 0.01, at(0.0, 0.0));
+  ScenarioGuidance guidance(scenario, 0.01);
+  (void)guidance.step(0.0, at(0.0, 0.0));
   const GuidanceOutput first =
-      guidance.step(0.0, at(7.5, 0.5));  // within 4 m of a point, but not of the last
+      guidance.step(0.01, at(7.5, 0.5));  // within 4 m of a point, but not of the last
   expect_on_first_leg(first, 0.5);
-  const GuidanceOutput last = guidance.step(0.01, at(10.0, 0.5));
+  const GuidanceOutput last = guidance.step(0.02, at(10.0, 0.5));
   EXPECT_EQ(last.path.leg, 1);
   EXPECT_EQ(last.path.target_m.y_m, 10.0);
   EXPECT_EQ(last.reference.speed_mps, 2.0);
-  EXPECT_NEAR(guidance.step(0.02, at(10.0, 8.0)).reference.speed_mps, 1.0, 1e-12);  // 2 m of 4
-  const GuidanceOutput there = guidance.step(0.03, at(10.0, 9.5));
+  EXPECT_NEAR(guidance.step(0.03, at(10.0, 8.0)).reference.speed_mps, 1.0, 1e-12);  // 2 m of 4
+  const GuidanceOutput there = guidance.step(0.04, at(10.0, 9.5));
   EXPECT_TRUE(there.finished);
   EXPECT_EQ(there.reference.speed_mps, 0.0);
   EXPECT_EQ(there.path.leg, 1);
@@ -64,15 +65,16 @@ TEST(ScenarioGuidance, FollowsALineToItsEndAndSlowsDownBeforeIt) {
   const Scenario scenario = along(LinePath{.points_m = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}},
                                            .law = LineOfSight<double>{1.0, 1.0, false},
                                            .slow_down_m = 4.0});
-  ScenarioGuidance guidance(scenario, 0.01, at(0.0, 0.0));
-  const GuidanceOutput first = guidance.step(0.0, at(7.0, 0.2));
+  ScenarioGuidance guidance(scenario, 0.01);
+  (void)guidance.step(0.0, at(0.0, 0.0));
+  const GuidanceOutput first = guidance.step(0.01, at(7.0, 0.2));
   expect_on_first_leg(first, 0.2);
-  const GuidanceOutput last = guidance.step(0.01, at(10.2, 7.0));
+  const GuidanceOutput last = guidance.step(0.02, at(10.2, 7.0));
   EXPECT_EQ(last.path.leg, 1);
   EXPECT_EQ(last.path.target_m.y_m, 10.0);
   EXPECT_NEAR(last.path.cross_track_m, -0.2, 1e-12);
   EXPECT_NEAR(last.reference.speed_mps, 2.0 * 3.0 / 4.0, 1e-12);
-  const GuidanceOutput there = guidance.step(0.02, at(10.0, 10.1));
+  const GuidanceOutput there = guidance.step(0.03, at(10.0, 10.1));
   EXPECT_TRUE(there.finished);
   EXPECT_EQ(there.path.leg, 1);
   EXPECT_EQ(there.reference.speed_mps, 0.0);
@@ -83,7 +85,8 @@ TEST(ScenarioGuidance, FollowsAPathAtItsSpeedOrAtTheScenarios) {
   path.path = {10.0, 8.0, 0.1, 0.3};
   Scenario scenario = along(path);
   scenario.speed_mps = 0.0;
-  ScenarioGuidance guidance(scenario, 0.01, at(10.0, 0.0));
+  ScenarioGuidance guidance(scenario, 0.01);
+  (void)guidance.step(0.0, at(10.0, 0.0));
   const PathPoint<double> point = path.path.at(3.0);
   const GuidanceOutput output = guidance.step(3.0, at(point.position_m.x_m, point.position_m.y_m));
   EXPECT_NEAR(output.reference.psi_rad, std::atan2(point.vy_mps, point.vx_mps), 1e-12);
@@ -91,9 +94,7 @@ TEST(ScenarioGuidance, FollowsAPathAtItsSpeedOrAtTheScenarios) {
   EXPECT_EQ(output.path.target_m.x_m, point.position_m.x_m);
   EXPECT_NEAR(output.path.cross_track_m, 0.0, 1e-12);
   scenario.speed_mps = 1.5;
-  EXPECT_EQ(
-      ScenarioGuidance(scenario, 0.01, at(10.0, 0.0)).step(3.0, at(0.0, 0.0)).reference.speed_mps,
-      1.5);
+  EXPECT_EQ(ScenarioGuidance(scenario, 0.01).step(0.0, at(10.0, 0.0)).reference.speed_mps, 1.5);
 }
 
 TEST(Clearance, IsBetweenTheCircles) {

@@ -102,13 +102,13 @@ std::vector<Finding> completion_findings(const Comparison& comparison) {
 
 std::vector<Finding> extrapolation_findings(const Comparison& comparison,
                                             const Provenance& provenance) {
-  if (!comparison.measured_yaw_rate_degps || comparison.rows.empty()) return {};
+  if (comparison.rows.empty()) return {};
   const auto fastest = std::ranges::max_element(
       comparison.rows, {}, [](const ComparisonRow& row) { return row.metrics.yaw_rate_max_degps; });
   const auto commands = comparison.turn_commands.find(fastest->scenario);
   const std::string model = provenance.inputs.empty() ? "" : provenance.inputs.front().name;
   auto finding = extrapolation_finding(
-      model, *comparison.measured_yaw_rate_degps, fastest->metrics.yaw_rate_max_degps,
+      model, comparison.measured_yaw_rate_degps, fastest->metrics.yaw_rate_max_degps,
       fmt::format("{}, {}, sample {}", fastest->scenario, name_of(fastest->mode), fastest->sample),
       commands == comparison.turn_commands.end() ? TurnCommands{} : commands->second);
   if (!finding) return {};

@@ -82,9 +82,9 @@ class ClosedLoop {
     Sensing sensing;
     Positioning positioning;
     RunDisturbance disturbance;
+    ScenarioGuidance guidance;
     Sensed sensed = {};
-    std::optional<ScenarioGuidance> guidance = {};  ///< set after the first measurement
-    PathRow path = {};                              ///< guidance columns of the current row
+    PathRow path = {};  ///< guidance columns of the current row
     /// Why the run ends at the current sample. kDuration: it does not end before the scenario's
     /// duration.
     RunEnd ending = RunEnd::kDuration;
@@ -99,7 +99,7 @@ class ClosedLoop {
   void for_active(const Body& body);
 
   void sense(std::size_t k, double t_s);
-  void guide(std::size_t k, double t_s);
+  void guide(double t_s);
   void follow(std::size_t run, const GuidanceOutput& output);
   void quantise_commands();
   void disturb(double t_s);
@@ -138,7 +138,8 @@ ClosedLoop<Row>::ClosedLoop(std::span<const BatchRun> runs, const Scenario& scen
     const RunSeed seed = run_seed(scenario.seed, run.seed, run.sample);
     parts_.push_back({Sensing(scenario.sensors, options.sample_time_s, seed, run.noise),
                       Positioning(scenario, options.sample_time_s),
-                      RunDisturbance(scenario.disturbance, options.sample_time_s, seed)});
+                      RunDisturbance(scenario.disturbance, options.sample_time_s, seed),
+                      ScenarioGuidance(scenario, options.sample_time_s)});
     if (options.keeps_rows) parts_.back().rows.reserve(options.samples + 1);
   }
 }
@@ -198,14 +199,13 @@ void ClosedLoop<Row>::sense(std::size_t k, double t_s) {
   });
 }
 
-/// Computes the references of the control laws at sample k, at the time t_s.
+/// Computes the references of the control laws at the time t_s.
 template <class Row>
-void ClosedLoop<Row>::guide(std::size_t k, double t_s) {
+void ClosedLoop<Row>::guide(double t_s) {
   if (has_own_guidance()) {
     for_active([&](std::size_t run) {
       Parts& parts = parts_[run];
-      if (k == 0) parts.guidance.emplace(scenario_, options_.sample_time_s, parts.sensed);
-      follow(run, parts.guidance->step(t_s, parts.sensed));
+      follow(run, parts.guidance.step(t_s, parts.sensed));
     });
   } else if (const auto* steps = std::get_if<HeadingSteps>(&scenario_.guidance)) {
     runs_->goal_rad = Row(heading_at(*steps, t_s));
@@ -296,7 +296,7 @@ void ClosedLoop<Row>::end_runs(std::size_t k, double t_s) {
   for_active([&](std::size_t run) {
     Parts& parts = parts_[run];
     if (parts.ending == RunEnd::kDuration && k < options_.samples) return;
-    parts.end = {parts.ending, t_s, parts.guidance ? parts.guidance->missed() : 0};
+    parts.end = {parts.ending, t_s, parts.guidance.missed()};
     put(0.0, run, runs_->vehicles.active);
   });
 }
@@ -308,7 +308,7 @@ void ClosedLoop<Row>::drive() {
     const double t_s = static_cast<double>(k) * options_.sample_time_s;
     runs_->time = clock_.next(t_s);
     sense(k, t_s);
-    guide(k, t_s);
+    guide(t_s);
     steps_.control(*runs_);
     quantise_commands();
     disturb(t_s);
@@ -333,7 +333,7 @@ Run ClosedLoop<Row>::take_run(std::size_t run) {
   taken.substeps = static_cast<int>(run_of<double>(runs_->vehicles.substeps, run));
   taken.end = parts.end ? parts.end->end : RunEnd::kFailed;
   taken.position_resets = parts.positioning.resets();
-  taken.missed_waypoints = parts.guidance ? parts.guidance->missed() : 0;
+  taken.missed_waypoints = parts.guidance.missed();
   return taken;
 }
 

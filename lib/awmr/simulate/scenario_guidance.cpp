@@ -27,10 +27,9 @@ double heading_at(const HeadingSteps& guidance, double t_s) {
   return psi_rad;
 }
 
-ScenarioGuidance::ScenarioGuidance(const Scenario& scenario, double sample_time_s,
-                                   const Sensed& start)
+ScenarioGuidance::ScenarioGuidance(const Scenario& scenario, double sample_time_s)
     : scenario_(&scenario), sample_time_s_(sample_time_s), sectors_(scenario.obstacles.size()) {
-  std::visit([&](const auto& path) { set_up(path, start); }, scenario.guidance);
+  std::visit([&](const auto& path) { set_up(path); }, scenario.guidance);
   if (scenario.avoidance) {
     static_cast<Avoider<double>&>(laws_) = {*scenario.avoidance,
                                             scenario.obstacles.data(),
@@ -39,42 +38,34 @@ ScenarioGuidance::ScenarioGuidance(const Scenario& scenario, double sample_time_
                                             {}};
   }
   if (scenario.shaping) {
-    static_cast<Shaper<double>&>(laws_) = {*scenario.shaping, sample_time_s,
-                                           start_shaping(start.motion.psi_rad), true, true};
+    static_cast<Shaper<double>&>(laws_) = {*scenario.shaping, sample_time_s, {}, true, false};
   }
 }
 
-void ScenarioGuidance::set_up(const WaypointPath& path, const Sensed& start) {
+void ScenarioGuidance::set_up(const WaypointPath& path) {
   laws_.waypoints = {path.points_m.data(), static_cast<int>(path.points_m.size()),
                      path.acceptance_m, path.skip_passed};
-  laws_.progress = start_waypoints(start.position_m, start.motion.psi_rad);
-  laws_.is_leg_started = true;
   laws_.acceptance_m2 = path.acceptance_m * path.acceptance_m;
   laws_.distance_m = path.slow_down_m.value_or(0.0);
 }
 
-void ScenarioGuidance::set_up(const LinePath& path, const Sensed& start) {
+void ScenarioGuidance::set_up(const LinePath& path) {
   AnyLineFollower<double>& part = laws_;
   part.line = {path.points_m.data(), static_cast<int>(path.points_m.size()), path.corner_m,
                path.law};
-  part.progress = start_polyline(start.motion.psi_rad);
-  part.is_started = true;
   part.sample_time_s = sample_time_s_;
   laws_.distance_m = path.slow_down_m.value_or(0.0);
 }
 
-void ScenarioGuidance::set_up(const LissajousPath& path, const Sensed& start) {
-  TimedPathFollower& part = laws_;
+void ScenarioGuidance::set_up(const LissajousPath& path) {
+  PathFollower<double, double>& part = laws_;
   part.path = path.path;
   part.gain_per_s = path.closed_loop ? path.position_gain_per_s : 0.0;
-  part.held_rad = start.motion.psi_rad;
-  part.start = 0.0;
-  part.is_started = true;
   part.is_on = true;
 }
 
 GuidanceOutput ScenarioGuidance::step(double t_s, const Sensed& sensed) {
-  const VehiclePose<double, double> pose{sensed.position_m, sensed.motion, t_s};
+  const Pose pose{sensed.position_m, sensed.motion, t_s};
   GuidanceOutput output;
   output.reference.speed_mps = scenario_->speed_mps;
   if (const auto* steps = std::get_if<HeadingSteps>(&scenario_->guidance)) {
@@ -82,7 +73,7 @@ GuidanceOutput ScenarioGuidance::step(double t_s, const Sensed& sensed) {
   }
   const GuidanceTarget<double> target = guide_by_route(laws_, pose, output.reference);
   output.finished = target.arrived;
-  std::visit([&](const auto& path) { describe(path, sensed, output); }, scenario_->guidance);
+  std::visit([&](const auto& path) { describe(path, pose, output); }, scenario_->guidance);
   output.path.psi_goal_rad = output.reference.psi_rad;
   if (output.finished || output.no_passage) output.reference.speed_mps = 0.0;
   if (!output.no_passage) {
@@ -106,34 +97,33 @@ bool ScenarioGuidance::way_is_free(const Position<double>& from, const Position<
   return passage_;
 }
 
-void ScenarioGuidance::describe(const WaypointPath& path, const Sensed& sensed,
+void ScenarioGuidance::describe(const WaypointPath& path, const Pose& pose,
                                 GuidanceOutput& output) {
   const int count = static_cast<int>(path.points_m.size());
   output.path.leg = std::min(laws_.progress.next, count - 1);
   output.path.target_m = path.points_m[static_cast<std::size_t>(output.path.leg)];
   if (output.finished) return;
   output.path.cross_track_m =
-      from_line_m(laws_.progress.leg_start_m, output.path.target_m, sensed.position_m);
-  output.no_passage = !way_is_free(sensed.position_m, output.path.target_m, laws_.progress.next);
+      from_line_m(laws_.progress.leg_start_m, output.path.target_m, pose.position_m);
+  output.no_passage = !way_is_free(pose.position_m, output.path.target_m, laws_.progress.next);
 }
 
-void ScenarioGuidance::describe(const LinePath& path, const Sensed& sensed,
-                                GuidanceOutput& output) {
+void ScenarioGuidance::describe(const LinePath& path, const Pose& pose, GuidanceOutput& output) {
   const int count = static_cast<int>(path.points_m.size());
   const AnyLineFollower<double>& part = laws_;
   output.path.leg = std::min(part.progress.segment, count - 2);
   output.path.target_m = path.points_m[static_cast<std::size_t>(output.path.leg) + 1];
   output.path.cross_track_m = part.guided.cross_track_m;
-  output.no_passage = !output.finished && !way_is_free(sensed.position_m, path.points_m.back(), 0);
+  output.no_passage = !output.finished && !way_is_free(pose.position_m, path.points_m.back(), 0);
 }
 
-void ScenarioGuidance::describe(const LissajousPath&, const Sensed& sensed,
+void ScenarioGuidance::describe(const LissajousPath& path, const Pose& pose,
                                 GuidanceOutput& output) {
-  const PathPoint<double>& path = laws_.point;
-  output.path.target_m = path.position_m;
-  const Position<double> ahead{path.position_m.x_m + path.vx_mps,
-                               path.position_m.y_m + path.vy_mps};
-  output.path.cross_track_m = from_line_m(path.position_m, ahead, sensed.position_m);
+  const PathPoint<double> point = path.path.at(elapsed_s(laws_.start, pose.now));
+  output.path.target_m = point.position_m;
+  const Position<double> ahead{point.position_m.x_m + point.vx_mps,
+                               point.position_m.y_m + point.vy_mps};
+  output.path.cross_track_m = from_line_m(point.position_m, ahead, pose.position_m);
 }
 
 }  // namespace awmr

@@ -27,24 +27,15 @@ struct GuidanceOutput {
   bool no_passage = false;
 };
 
-/// PathFollower that also stores the current point of the path, which the row of the run needs.
-struct TimedPathFollower : PathFollower<double, double> {
-  PathPoint<double> point{};
-};
-inline PathPoint<double> path_point(TimedPathFollower& part, double t_s) {
-  return part.point = part.path.at(t_s);
-}
-
 /// The guidance of one run, with its state between samples.
 class ScenarioGuidance {
  public:
-  /// `start`: measurements at t = 0.
-  ScenarioGuidance(const Scenario& scenario, double sample_time_s, const Sensed& start);
+  ScenarioGuidance(const Scenario& scenario, double sample_time_s);
   ScenarioGuidance(const ScenarioGuidance&) = delete;
   ScenarioGuidance(ScenarioGuidance&&) = default;
 
-  /// Computes the references at the time `t_s`. Call it once per sample, in order, and not in open
-  /// loop, which has no references.
+  /// Computes the references at the time `t_s`. Call it once per sample, in order from t = 0, and
+  /// not in open loop, which has no references.
   GuidanceOutput step(double t_s, const Sensed& sensed);
   /// Number of waypoints that have been missed so far, including those covered by an obstacle.
   int missed() const { return laws_.progress.missed; }
@@ -54,22 +45,24 @@ class ScenarioGuidance {
   /// not wrap like the clock of a firmware.
   struct Parts {
     using Line = AnyLineFollower<double>;
-    using Path = TimedPathFollower;
+    using Path = PathFollower<double, double>;
     using Arrival = SlowDown<double>;
     using Avoidance = Avoider<double>;
     using Shaping = Shaper<double>;
   };
 
-  void set_up(const OpenLoop&, const Sensed&) {}
-  void set_up(const HeadingSteps&, const Sensed&) {}
-  void set_up(const WaypointPath& path, const Sensed& start);
-  void set_up(const LinePath& path, const Sensed& start);
-  void set_up(const LissajousPath& path, const Sensed& start);
-  void describe(const OpenLoop&, const Sensed&, GuidanceOutput&) {}
-  void describe(const HeadingSteps&, const Sensed&, GuidanceOutput&) {}
-  void describe(const WaypointPath& path, const Sensed& sensed, GuidanceOutput& output);
-  void describe(const LinePath& path, const Sensed& sensed, GuidanceOutput& output);
-  void describe(const LissajousPath& path, const Sensed& sensed, GuidanceOutput& output);
+  using Pose = VehiclePose<double, double>;
+
+  void set_up(const OpenLoop&) {}
+  void set_up(const HeadingSteps&) {}
+  void set_up(const WaypointPath& path);
+  void set_up(const LinePath& path);
+  void set_up(const LissajousPath& path);
+  void describe(const OpenLoop&, const Pose&, GuidanceOutput&) {}
+  void describe(const HeadingSteps&, const Pose&, GuidanceOutput&) {}
+  void describe(const WaypointPath& path, const Pose& pose, GuidanceOutput& output);
+  void describe(const LinePath& path, const Pose& pose, GuidanceOutput& output);
+  void describe(const LissajousPath& path, const Pose& pose, GuidanceOutput& output);
   bool way_is_free(const Position<double>& from, const Position<double>& to, int leg);
 
   const Scenario* scenario_;

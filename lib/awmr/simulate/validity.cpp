@@ -247,25 +247,17 @@ std::string remedy_for_turns(const TurnCommands& commands, double measured_degps
 
 }  // namespace
 
-std::optional<Finding> extrapolation_finding(const std::string& file, double measured_degps,
+std::optional<Finding> extrapolation_finding(const std::string& file,
+                                             const std::optional<double>& measured_degps,
                                              double fastest_degps, const std::string& where,
                                              const TurnCommands& commands) {
-  if (fastest_degps <= kLittleFurther * measured_degps) return std::nullopt;
+  if (!measured_degps || fastest_degps <= kLittleFurther * *measured_degps) return std::nullopt;
   return Finding{file, 0, Severity::kWarning, "beyond-trials",
                  fmt::format("{}: the vehicle turns at up to {:.3g} deg/s, {:.2g} times the "
                              "highest rate at which the yaw resistance was measured ({:.3g} "
                              "deg/s); above this rate, the model extrapolates the resistance. {}",
-                             where, fastest_degps, fastest_degps / measured_degps, measured_degps,
-                             remedy_for_turns(commands, measured_degps, fastest_degps))};
-}
-
-void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
-                        const TurnCommands& commands, std::vector<Finding>& findings) {
-  const std::optional<double> measured = measured_yaw_rate_degps(model);
-  if (!measured) return;
-  if (auto finding = extrapolation_finding(model.file, *measured, fastest_degps, where, commands)) {
-    findings.push_back(*std::move(finding));
-  }
+                             where, fastest_degps, fastest_degps / *measured_degps, *measured_degps,
+                             remedy_for_turns(commands, *measured_degps, fastest_degps))};
 }
 
 namespace {

@@ -91,35 +91,14 @@ struct TurnCommands {
 TurnCommands turn_commands(const Scenario& scenario);
 
 /// Warning `beyond-trials`: a turn at `fastest_degps`, >= 0, exceeds kLittleFurther times
-/// `measured_degps` > 0, the highest rate at which the yaw resistance was measured. Else absent.
-/// `file`: the file of the model. For the other arguments, see note_extrapolation().
-std::optional<Finding> extrapolation_finding(const std::string& file, double measured_degps,
+/// `measured_degps` > 0, the highest rate at which the yaw resistance was measured
+/// (measured_yaw_rate_degps()). Else absent, also if there is no such rate. `file`: the file of the
+/// model. `where`: name of the run, such as "C3, combined". `commands`: turn commands of the run's
+/// scenario. Of several runs, report only the one with the highest yaw rate: a finding for each run
+/// would repeat the same advice.
+std::optional<Finding> extrapolation_finding(const std::string& file,
+                                             const std::optional<double>& measured_degps,
                                              double fastest_degps, const std::string& where,
                                              const TurnCommands& commands);
-
-/// Adds the warning of extrapolation_finding() for one run. It compares the run with the highest
-/// measured yaw rate of the model, and adds nothing if the model has no such rate. `where`: name of
-/// the run, such as "C3, combined". `commands`: turn commands of the run's scenario.
-void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
-                        const TurnCommands& commands, std::vector<Finding>& findings);
-
-/// Returns the warning `beyond-trials` if any of the runs turned faster than the yaw resistance was
-/// measured (extrapolation_finding()). Only the run with the highest yaw rate is reported: a
-/// finding for each run would repeat the same advice. Each element of `runs` must have a member
-/// `metrics`. `where(run)` must return the name of a run, `commands(run)` the turn commands of its
-/// scenario.
-template <class Runs, class Where, class Commands>
-std::vector<Finding> extrapolation_in(const Model& model, const Runs& runs, const Where& where,
-                                      const Commands& commands) {
-  const auto fastest = std::max_element(runs.begin(), runs.end(), [](const auto& a, const auto& b) {
-    return a.metrics.yaw_rate_max_degps < b.metrics.yaw_rate_max_degps;
-  });
-  std::vector<Finding> findings;
-  if (fastest != runs.end()) {
-    note_extrapolation(model, fastest->metrics.yaw_rate_max_degps, where(*fastest),
-                       commands(*fastest), findings);
-  }
-  return findings;
-}
 
 }  // namespace awmr

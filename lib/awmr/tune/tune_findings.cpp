@@ -240,16 +240,16 @@ std::vector<Finding> search_findings(const Model& model, const TuneOptions& opti
                                       ? evaluation_findings(*tuning.robust, tuning.unsettled)
                                       : nominal_findings(tuning);
   note_baseline(tuning, findings);
-  const auto name = [](const ModeScore& score) {
-    return fmt::format("{}, {}", score.scenario, name_of(score.mode));
-  };
-  const auto commands = [&options](const ModeScore& score) {
-    const auto found = std::ranges::find(options.scenarios, score.scenario, &Scenario::name);
-    assert(found != options.scenarios.end());
-    return turn_commands(*found);
-  };
-  std::ranges::move(extrapolation_in(model, tuning.scores, name, commands),
-                    std::back_inserter(findings));
+  const auto fastest = std::ranges::max_element(
+      tuning.scores, {}, [](const ModeScore& score) { return score.metrics.yaw_rate_max_degps; });
+  if (fastest != tuning.scores.end()) {
+    const auto scenario = std::ranges::find(options.scenarios, fastest->scenario, &Scenario::name);
+    assert(scenario != options.scenarios.end());
+    auto finding = extrapolation_finding(
+        model.file, measured_yaw_rate_degps(model), fastest->metrics.yaw_rate_max_degps,
+        fmt::format("{}, {}", fastest->scenario, name_of(fastest->mode)), turn_commands(*scenario));
+    if (finding) findings.push_back(*std::move(finding));
+  }
   if (const auto plant = model.plant()) {
     auto finding = noise_beyond_servo(model.vehicle, *plant, tuning);
     if (finding) findings.push_back(*std::move(finding));

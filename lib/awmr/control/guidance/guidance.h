@@ -125,12 +125,6 @@ AWMR_CALLED bool guide_by_line(Line& part, const Arrival& arrival, const Vehicle
   return true;
 }
 
-/// Returns the point of the path at `t_s` seconds after the start.
-template <class T, class Time>
-AWMR_INLINE PathPoint<T> path_point(const PathFollower<T, Time>& part, const T& t_s) {
-  return part.path.at(t_s);
-}
-
 /// Takes heading, heading rate and speed of the reference from the timed path, but keeps a
 /// reference speed above 0. No-op if no path is set.
 template <class Part, class T, class Time>
@@ -143,7 +137,7 @@ AWMR_CALLED void guide_by_path(Path& part, const VehiclePose<T, Time>& at, Refer
     part.start = at.now;
     part.is_started = true;
   }
-  const PathPoint<T> point = path_point(part, elapsed_s(part.start, at.now));
+  const PathPoint<T> point = part.path.at(elapsed_s(part.start, at.now));
   const PathGuidance<T> guided =
       part.gain_per_s > T(0.0)
           ? closed_path(point, part.gain_per_s, at.position_m,
