@@ -69,7 +69,7 @@ class RollingVehicle : public PaperAutopilot {
     vehicle_.move(std::clamp(static_cast<double>(out_.tau_speed), -4.0, 4.0));
   }
 
-  Autopilot<Resistance<float>> autopilot_{};
+  Autopilot<Resistance<float>, NoParts> autopilot_{};
   AutopilotInput in_{};
   AutopilotOutput out_{};
   Vehicle vehicle_;

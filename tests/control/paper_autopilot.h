@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "awmr/control/autopilot.h"
+#include "support/no_parts.h"
 #include "support/paper_vehicle.h"
 
 namespace awmr::testing {

@@ -87,7 +87,7 @@ class AutopilotFaults : public PaperAutopilot {
  protected:
   /// Output of a first step.
   AutopilotOutput step(const AutopilotInput& in) {
-    Autopilot<Resistance<float>> autopilot{};
+    Autopilot<Resistance<float>, NoParts> autopilot{};
     start_autopilot(autopilot, &block_, nullptr, 0, nullptr, 0, crc_);
     if (points_ > 0) follow_waypoints(autopilot, {kPoints, points_, 0.5F, false});
     AutopilotOutput out{};
@@ -190,7 +190,7 @@ TEST_F(AutopilotFaults, CombinesSeveralBits) {
 }
 
 TEST_F(AutopilotFaults, AStepIsLateAfterItsTimeoutAndTheNextOneIsNot) {
-  Autopilot<Resistance<float>> autopilot{};
+  Autopilot<Resistance<float>, NoParts> autopilot{};
   ASSERT_TRUE(start_autopilot(autopilot, &block_, nullptr, 0, nullptr, 0, crc_));
   AutopilotOutput out{};
   const auto fault_at = [&](std::uint32_t now_ms) {

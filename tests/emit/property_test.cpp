@@ -8,6 +8,7 @@
 #include "awmr/control/autopilot.h"
 #include "emit/paper_robot.h"
 #include "support/any_robot.h"
+#include "support/no_parts.h"
 
 namespace awmr::testing {
 namespace {
@@ -26,7 +27,7 @@ AutopilotInput any_input(const SafetyLimits& limits) {
 
 template <class G>
 void steps_stay_within_limits(const AutopilotParameters& p) {
-  Autopilot<G> autopilot{};
+  Autopilot<G, NoParts> autopilot{};
   RC_ASSERT(start_autopilot(autopilot, &p.block, p.surge.lines.data(), p.surge.lines.size(),
                             p.yaw.lines.data(), p.yaw.lines.size(), p.crc));
   for (int i = 0; i < 50; ++i) {

@@ -1,7 +1,7 @@
 // Complete program for the ATmega2560: awmr_params.h and the simulator's controller, in float.
 // Inputs from sensors and outputs to motors are volatile here.
-#include "awmr/control/control_step.h"
 #include "awmr_params.h"
+#include "support/control_step.h"
 
 namespace {
 

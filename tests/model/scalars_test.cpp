@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "awmr/control/control_step.h"
+#include "support/control_step.h"
 #include "support/paper_vehicle.h"
 #include "support/strict_scalar.h"
 

@@ -126,24 +126,15 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
 }
 
 /// Allocates in the given yaw mode. The speed u = `u_mps`, forward positive, matters only for
-/// motors with back-EMF, which lowers the force limits by k_e u. `constants`: the result of
-/// prepared(limits).
-template <class T>
-Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
-                       const AllocationLimits<T>& limits, const T& u_mps,
-                       const AllocationConstants<T>& constants) {
-  const SteeringGeometry geometry = geometry_of(limits);
-  Allocation<T> a;
-  allocate(geometry, yaw_split<T>(mode, limits.split), tau_speed, tau_turn_m,
-           at_speed(constants, limits.back_emf_s_per_m, u_mps, geometry.driven_wheels()), a);
-  return a;
-}
-
-/// Same as allocate() above, but slower: also computes the constants from the limits.
+/// motors with back-EMF, which lowers the force limits by k_e u.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits, const T& u_mps = T(0.0)) {
-  return allocate(mode, tau_speed, tau_turn_m, limits, u_mps, prepared(limits));
+  const SteeringGeometry geometry = geometry_of(limits);
+  Allocation<T> a;
+  allocate(geometry, yaw_split<T>(mode, limits.split), tau_speed, tau_turn_m,
+           at_speed(prepared(limits), limits.back_emf_s_per_m, u_mps, geometry.driven_wheels()), a);
+  return a;
 }
 
 }  // namespace awmr

@@ -91,12 +91,6 @@ inline bool is_finite(const AutopilotOutput& out) {
          float_math::leading_bits(out.tau_speed) < infinity;
 }
 
-/// Returns the surge force that acts until the next step: the requested tau_speed, limited to the
-/// range of the four motors.
-inline float acting_force(const AllocationConstants<float>& c, float tau_speed) {
-  return math::clamp(tau_speed, c.tau_speed_min, c.tau_speed_max);
-}
-
 /// Computes speed law, heading law, allocation and motor drives for a reference.
 template <class G, class P>
 AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in,
@@ -163,8 +157,9 @@ void autopilot_step(Autopilot<G, P>& a, const AutopilotInput& in, AutopilotOutpu
     if (detail::is_finite(out) &&
         is_within_limits(a.controller.constants.allocation, out.command)) {
       if (is_directed) {
-        a.direction.tau_speed =
-            detail::acting_force(a.controller.constants.allocation, out.tau_speed);
+        // The force that acts until the next step is limited to the range of the four motors.
+        const AllocationConstants<float>& c = a.controller.constants.allocation;
+        a.direction.tau_speed = math::clamp(out.tau_speed, c.tau_speed_min, c.tau_speed_max);
       }
       make_up_dead_zone(part_of<typename P::Motors>(a), out.command.force);
       return;

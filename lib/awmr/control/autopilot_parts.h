@@ -50,25 +50,9 @@ struct Positioner {
   uint32_t fix_ms = 0;  ///< time of the last fix (AutopilotInput::fix_ms)
 };
 
-/// List of parts for a firmware without optional parts. A firmware with some parts defines its own
-/// struct with the same member names, as AllParts below does.
-struct NoParts {
-  typedef Disabled<LineFollower<float>> Line;
-  typedef Disabled<PathFollower<float, uint32_t>> Path;
-  typedef Disabled<SlowDown<float>> Arrival;
-  typedef Disabled<Avoider<float>> Avoidance;
-  typedef Disabled<Shaper<float>> Shaping;
-  typedef Disabled<Observer> Observation;
-  typedef Disabled<MotorCurve> Motors;
-  typedef Disabled<GainsByMode> Gains;
-  typedef Disabled<Positioner<>> Positioning;
-  static constexpr CombinedSplit kSplit = CombinedSplit::kRedistribute;
-  /// True: speed sensors without a sign are supported (AutopilotInput::speed_unsigned).
-  static constexpr bool kIsDirected = true;
-};
-
 /// List of all parts. `split` determines how combined mode distributes the yaw moment when an
-/// actuator is at its limit.
+/// actuator is at its limit. A firmware without some parts defines its own struct with the same
+/// member names, and with Disabled<Part> for each of them.
 template <CombinedSplit split = CombinedSplit::kRedistribute>
 struct AllParts {
   typedef LineFollower<float> Line;
@@ -81,6 +65,7 @@ struct AllParts {
   typedef GainsByMode Gains;
   typedef Positioner<> Positioning;
   static constexpr CombinedSplit kSplit = split;
+  /// True: speed sensors without a sign are supported (AutopilotInput::speed_unsigned).
   static constexpr bool kIsDirected = true;
 };
 

@@ -16,7 +16,7 @@ namespace awmr {
 
 /// State of the autopilot between two steps. G is the type of the resistances g1 and g3, as in
 /// Controller. P lists the optional parts that are compiled in (autopilot_parts.h).
-template <class G, class P = NoParts>
+template <class G, class P>
 struct Autopilot : GuidanceLaws<float, P>, P::Observation, P::Motors, P::Gains, P::Positioning {
   PreparedController<float, G> controller;
   SafetyLimits limits;

@@ -149,7 +149,7 @@ class CommandReader {
     const CommandWord found = find_command(name, letters);
     if (found == CommandWord::kNone) return CommandVerdict::kUnknown;
     float number = 0.0F;
-    if (found >= CommandWord::kHeading) {
+    if (takes_number(found)) {
       if (*text++ != ' ' || !read_number(text, number)) return CommandVerdict::kUnknown;
     } else if (*text != '\0') {
       return CommandVerdict::kUnknown;

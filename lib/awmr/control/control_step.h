@@ -1,5 +1,5 @@
-/// One sample of the controller for a given reference: control laws, compensation of the estimated
-/// disturbance, allocation.
+/// Compensates the estimated disturbance in the outputs of the control laws, and allocates the
+/// result.
 #pragma once
 
 #include "awmr/control/allocation.h"
@@ -12,24 +12,16 @@
 
 namespace awmr {
 
-/// Surge force and yaw moment that the laws request, and the commands that the allocation computes.
-template <class T>
-struct Command {
-  /// requested surge force, dimensionless, forward positive, before any limit
-  T tau_speed;
-  /// requested yaw moment divided by F_max, m, counter-clockwise positive, before any limit
-  T tau_turn_m;
-  Allocation<T> allocation;  ///< wheel forces and steering angle, within their limits
-};
-
 /// Input of the allocation (request and limits), and its output: the command.
 template <class T>
 struct AllocationRequest {
   const SteeringGeometry& geometry;
   const YawSplit<T>& split;
   const AllocationConstants<T>& limits;
-  T& tau_speed;   ///< as in Command
-  T& tau_turn_m;  ///< as in Command
+  /// requested surge force, dimensionless, forward positive, before any limit
+  T& tau_speed;
+  /// requested yaw moment divided by F_max, m, counter-clockwise positive, before any limit
+  T& tau_turn_m;
   Allocation<T>& command;
 };
 
@@ -75,20 +67,6 @@ AWMR_INLINE void allocate_compensated(const Observers<T>* observers,
             allocated_forces(request.geometry, request.limits, request.command), motion,
             sample_time_s, *state);
   }
-}
-
-/// Computes the heading law, the speed law and the allocation for one sample. Does not use
-/// disturbance observers, and does not compensate the motors' dead zone.
-template <class T, class G>
-Command<T> control_step(const Controller<T, G>& c, YawMode mode, const Measurement<T>& m,
-                        const Reference<T>& ref) {
-  const PreparedController<T, G> laws = prepared(c);
-  Command<T> command{};
-  command.tau_speed = speed_law(laws, m, ref);
-  command.tau_turn_m = heading_law(laws, m, ref);
-  command.allocation = allocate(mode, command.tau_speed, command.tau_turn_m, c.limits, m.u_mps,
-                                laws.constants.allocation);
-  return command;
 }
 
 }  // namespace awmr

@@ -59,15 +59,6 @@ struct SpeedReading {
   bool is_new;             ///< measured since the last step
 };
 
-namespace detail {
-
-template <class T>
-T magnitude(const T& value) {
-  return value < T(0.0) ? -value : value;
-}
-inline float magnitude(const float& value) { return float_of(float_math::magnitude_bits(value)); }
-}  // namespace detail
-
 /// Predicts the speed u from u0 over the step of `dt_s` that ends now:
 ///   u = u0 + dt (tau_speed - g1(u0))/m'
 /// Friction and braking can bring u to 0 but do not reverse it. `surge`: surge resistance g1;
@@ -78,7 +69,7 @@ void predict_speed(DirectedSpeed<T>& d, const G& surge, const T& mass_inverse,
   const T before = d.predicted_mps;
   const T step = dt_s * mass_inverse;
   const T pushed = before + step * d.tau_speed;
-  T size = detail::magnitude(pushed);
+  T size = math::abs(pushed);
   if (size > speed_max_mps) size = speed_max_mps;
   size -= step * surge(size);
   if (!(size > T(0.0)) || math::is_opposite(pushed, before)) size = T(0.0);
@@ -96,7 +87,7 @@ void predict_speed(DirectedSpeed<T>& d, const G& surge, const T& mass_inverse,
 template <class T>
 void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
   if (!reading.is_new) return;
-  const T speed = detail::magnitude(reading.speed_mps);
+  const T speed = math::abs(reading.speed_mps);
   if (d.has_fix && speed > T(kStandstill_mps)) {
     d.along_m += displacement_ahead_m(T(reading.position_m.x_m - d.fix_m.x_m),
                                       T(reading.position_m.y_m - d.fix_m.y_m), reading.psi_rad);
@@ -105,12 +96,12 @@ void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
   }
   d.fix_m = reading.position_m;
   d.has_fix = true;
-  if (!(d.settled_s < T(kSettled_s)) && detail::magnitude(d.along_m) > T(kVerified_m)) {
+  if (!(d.settled_s < T(kSettled_s)) && math::abs(d.along_m) > T(kVerified_m)) {
     d.predicted_mps = math::with_sign(speed, d.along_m);
     d.along_m = T(0.0);
     return;
   }
-  T size = detail::magnitude(d.predicted_mps);
+  T size = math::abs(d.predicted_mps);
   // While a force drives the vehicle, the predicted speed becomes the mean of prediction and
   // reading. While the vehicle coasts or brakes, only a reading below the prediction is used: a
   // larger reading can belong to motion in the other direction.
@@ -127,9 +118,9 @@ void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
 /// coasts.
 template <class T>
 void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>& ref) {
-  const T speed = detail::magnitude(m.u_mps);
-  const T wanted = detail::magnitude(ref.speed_mps);
-  const bool is_known = detail::magnitude(d.predicted_mps) > T(kDirected_mps);
+  const T speed = math::abs(m.u_mps);
+  const T wanted = math::abs(ref.speed_mps);
+  const bool is_known = math::abs(d.predicted_mps) > T(kDirected_mps);
   const bool is_stop = !(wanted > T(0.0));
   const bool coasts =
       is_stop ? !is_known || !(speed > T(kStandstill_mps)) : !is_known && speed > wanted;

@@ -54,7 +54,7 @@ class GpsCheck {
         // UTC ran backward: refuse fixes until UTC has advanced for a while.
         unsettled_ = kRelocations;
       } else {
-        note_lag(detail::elapsed_ms(now_ms, utc_at_ms_), advance_ms);
+        note_lag(now_ms - utc_at_ms_, advance_ms);
       }
     }
     utc_ms_ = fix.utc_ms;
@@ -92,8 +92,8 @@ class GpsCheck {
 
   /// Returns the reason why the GPS must not be used; kSensorGood: the GPS can be used.
   SensorFault fault(uint32_t now_ms) const {
-    if (detail::elapsed_ms(now_ms, sentence_ms_) > limits_.timeout_ms) return kGpsSilent;
-    if (!has_fix_ || detail::elapsed_ms(now_ms, fix_.time_ms) > limits_.timeout_ms) {
+    if (now_ms - sentence_ms_ > limits_.timeout_ms) return kGpsSilent;
+    if (!has_fix_ || now_ms - fix_.time_ms > limits_.timeout_ms) {
       return last_ != kSensorGood ? last_ : kGpsSilent;
     }
     return motion_.fault();
@@ -145,7 +145,7 @@ class GpsCheck {
   /// Displacement and time from the last accepted fix to the place `to`.
   GpsMotion motion_to(const Place& to) const {
     return {to.x_m - fix_.x_m, to.y_m - fix_.y_m,
-            1e-3F * static_cast<float>(detail::elapsed_ms(to.time_ms, fix_.time_ms)), to.speed_mps};
+            1e-3F * static_cast<float>(to.time_ms - fix_.time_ms), to.speed_mps};
   }
 
   /// True if the vehicle can have moved from the last accepted fix to the place `to`. The

@@ -24,7 +24,7 @@ class FrozenCheck {
       changed_ms_ = now_ms;
       has_words_ = true;
       is_frozen_ = false;
-    } else if (detail::elapsed_ms(now_ms, changed_ms_) > kFrozen_ms) {
+    } else if (now_ms - changed_ms_ > kFrozen_ms) {
       is_frozen_ = true;
     }
   }
@@ -151,11 +151,11 @@ class HeadingCheck {
   }
   /// Returns the first fault that is found by the tests below, in their order; kSensorGood: none.
   SensorFault fault(uint32_t now_ms) const {
-    if (detail::elapsed_ms(now_ms, gyro_ms_) > kGyroSilent_ms) return kGyroSilent;
+    if (now_ms - gyro_ms_ > kGyroSilent_ms) return kGyroSilent;
     if (is_range_wrong_) return kGyroRange;
     if (gyro_.is_frozen()) return kGyroFrozen;
     if (!calibration.is_done()) return kGyroNotCalibrated;
-    if (detail::elapsed_ms(now_ms, field_ms_) > kCompassSilent_ms) return kCompassSilent;
+    if (now_ms - field_ms_ > kCompassSilent_ms) return kCompassSilent;
     if (field_.is_frozen()) return kCompassFrozen;
     if (step.is_apart()) return kHeadingOutOfStep;
     if (turn.is_wrong()) return kWrongTurn;

@@ -45,10 +45,7 @@ constexpr uint8_t kSensorFaultCount = 18;
 
 namespace detail {
 
-/// Milliseconds from `then_ms` to `now_ms`, also if the clock has wrapped to 0 in between.
-inline uint32_t elapsed_ms(uint32_t now_ms, uint32_t then_ms) { return now_ms - then_ms; }
-
-/// Magnitude |value|.
+/// Magnitude |value|. Arduino defines abs as a macro.
 inline float size_of(float value) { return float_of(float_math::magnitude_bits(value)); }
 
 }  // namespace detail

@@ -28,16 +28,16 @@ AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& eps
 /// Why the second and third lines: without them, a vehicle that rolls down a slope faster than u_d
 /// would get tau_speed = g1(u) - m' mu_s. At speeds with g1(u) > m' mu_s, this force accelerates
 /// the vehicle further. `wanted`: correction m' mu_s e_u/eps_s before saturation; `limit`: its
-/// largest magnitude, m' mu_s. `epsilon()` returns eps_s.
-template <class T, class Epsilon>
+/// largest magnitude, m' mu_s; `slope`: m' mu_s/eps_s.
+template <class T>
 AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T& error_mps,
-                                const T& wanted, const T& limit, const Epsilon& epsilon) {
+                                const T& wanted, const T& limit, const T& slope) {
   using math::any;
   using math::select;
   T w_mps = u_mps;
   const Mask<T> too_fast = math::is_opposite(u_mps, error_mps) && math::is_beyond(wanted, limit);
   if (any(too_fast)) {
-    w_mps = select(too_fast, fastest_fed_forward(u_mps, ref.speed_mps, T(epsilon())), w_mps);
+    w_mps = select(too_fast, fastest_fed_forward(u_mps, ref.speed_mps, T(limit / slope)), w_mps);
   }
   const Mask<T> stands = math::is_zero(ref.speed_mps);
   return any(stands) ? select(stands, T(0.0), w_mps) : w_mps;
@@ -57,8 +57,7 @@ AWMR_INLINE T speed_law(const PreparedController<T, G>& c, const Measurement<T>&
   const T error = ref.speed_mps - m.u_mps;
   const T wanted = k.speed_slope * error;
   const T correction = math::saturate(wanted, k.speed_limit);
-  const T w_mps = fed_forward_speed(m.u_mps, ref, error, wanted, k.speed_limit,
-                                    [&k] { return T(k.speed_limit / k.speed_slope); });
+  const T w_mps = fed_forward_speed(m.u_mps, ref, error, wanted, k.speed_limit, k.speed_slope);
   const T accel_mps2 = math::difference(ref.accel_mps2, T(m.r_radps * m.v_mps));
   return fed_forward(c.surge, w_mps, error) +
          math::plus_product(correction, k.mass_norm, accel_mps2);

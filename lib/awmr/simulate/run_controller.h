@@ -45,8 +45,8 @@ struct RunControllerState {
 /// Commands of one sample.
 template <class T>
 struct RunCommand {
-  T tau_speed;          ///< as in Command
-  T tau_turn_m;         ///< as in Command
+  T tau_speed;          ///< as in AllocationRequest
+  T tau_turn_m;         ///< as in AllocationRequest
   SideForces<T> force;  ///< motor commands, with dead zone and back-EMF compensated
   T steering_rad;
 };

@@ -9,7 +9,8 @@
 
 namespace awmr {
 
-/// Parameters and state of the guidance. P lists the optional parts (NoParts in autopilot_parts.h).
+/// Parameters and state of the guidance. P lists the optional parts, as AllParts in
+/// autopilot_parts.h does.
 template <class T, class P>
 struct GuidanceLaws : P::Line, P::Path, P::Arrival, P::Avoidance, P::Shaping {
   Waypoints<T> waypoints;        ///< count 0: no waypoints
@@ -56,8 +57,8 @@ AWMR_INLINE void slow_down(const SlowDown<T>& part, bool is_last, const ToGo& to
   ref.speed_mps *= arrival_share(part.distance_m, T(to_go_m()));
 }
 
-/// Computes the guidance to waypoints by guide() of waypoints.h. If obstacles are avoided, the
-/// guidance skips waypoints that an obstacle makes unreachable (covers() in obstacles.h).
+/// Computes the guidance to waypoints by guide() of waypoints.h. If obstacles are avoided,
+/// waypoints that an obstacle covers (covers() in obstacles.h) are skipped and counted as missed.
 template <class T>
 AWMR_INLINE WaypointGuidance<T> guide_clear(const Disabled<Avoider<T>>&,
                                             const Waypoints<T>& waypoints, const T& acceptance_m2,
@@ -66,11 +67,19 @@ AWMR_INLINE WaypointGuidance<T> guide_clear(const Disabled<Avoider<T>>&,
   return guide(waypoints, acceptance_m2, position_m, progress);
 }
 template <class T>
-WaypointGuidance<T> guide_clear(const Avoider<T>& part, const Waypoints<T>& waypoints,
-                                const T& /*acceptance_m2*/, const Position<T>& position_m,
-                                WaypointProgress<T>& progress) {
-  return guide_past_covered(part.avoidance, part.obstacles, part.count, waypoints, position_m,
-                            progress);
+AWMR_CALLED WaypointGuidance<T> guide_clear(const Avoider<T>& part, const Waypoints<T>& waypoints,
+                                            const T& /*acceptance_m2*/,
+                                            const Position<T>& position_m,
+                                            WaypointProgress<T>& progress) {
+  WaypointGuidance<T> guided = guide(waypoints, position_m, progress);
+  while (!guided.finished &&
+         is_covered(part.avoidance, part.obstacles, part.count, waypoints.points_m[progress.next],
+                    waypoints.acceptance_m)) {
+    ++progress.missed;
+    ++progress.next;
+    guided = guide(waypoints, position_m, progress);
+  }
+  return guided;
 }
 
 /// Sets the reference heading to the direction of the next waypoint. Returns false if none is set.

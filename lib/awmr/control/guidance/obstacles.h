@@ -80,25 +80,6 @@ bool is_covered(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles, int
   return false;
 }
 
-/// Computes the guidance to waypoints by guide() of waypoints.h. Waypoints that an obstacle covers
-/// are skipped and counted as missed.
-template <class T>
-AWMR_CALLED WaypointGuidance<T> guide_past_covered(const Avoidance<T>& avoidance,
-                                                   const Obstacle<T>* obstacles, int count,
-                                                   const Waypoints<T>& waypoints,
-                                                   const Position<T>& position_m,
-                                                   WaypointProgress<T>& progress) {
-  WaypointGuidance<T> guided = guide(waypoints, position_m, progress);
-  while (!guided.finished &&
-         is_covered(avoidance, obstacles, count, waypoints.points_m[progress.next],
-                    waypoints.acceptance_m)) {
-    ++progress.missed;
-    ++progress.next;
-    guided = guide(waypoints, position_m, progress);
-  }
-  return guided;
-}
-
 /// Turns the heading `guidance_rad` out of the sectors that `count` obstacles block, and reduces
 /// the speed while an obstacle is close ahead. `target_m` is the distance to the guidance target,
 /// beyond which obstacles are ignored; without a target it is no_target_m(). `psi_rad` and `u_mps`
