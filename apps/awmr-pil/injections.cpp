@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "awmr/control/safety_fault.h"
+#include "awmr/control/faults.h"
 
 namespace awmr::pil {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "awmr/control/sensor_fault.h"
+#include "awmr/control/faults.h"
 #include "pil_options.h"
 
 namespace awmr::pil {

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "awmr/control/sensor_fault.h"
+#include "awmr/control/faults.h"
 #include "pil/chip.h"
 
 namespace awmr::testing {

@@ -7,7 +7,7 @@
 
 #include <stdint.h>
 
-#include "awmr/control/safety_fault.h"
+#include "awmr/control/faults.h"
 
 namespace awmr {
 

@@ -5,7 +5,6 @@
 
 #include <stdint.h>
 
-#include "awmr/control/autopilot_commands.h"
 #include "awmr/control/autopilot_signals.h"
 #include "awmr/control/autopilot_state.h"
 #include "awmr/control/control_step.h"

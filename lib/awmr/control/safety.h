@@ -4,9 +4,9 @@
 #include <stdint.h>
 
 #include "awmr/control/allocation_limits.h"
+#include "awmr/control/faults.h"
 #include "awmr/control/flash.h"
 #include "awmr/control/measurement.h"
-#include "awmr/control/safety_fault.h"
 
 namespace awmr {
 
