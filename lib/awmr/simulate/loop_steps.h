@@ -9,9 +9,8 @@
 
 namespace awmr {
 
-/// All numbers of the runs that are simulated together, as plain data. The kernels of lanes/ are
-/// compiled for other instruction sets: a function shared with the rest of the program could
-/// contain instructions that the processor does not have.
+/// All numbers of the runs that are simulated together. Plain data, because the kernels of lanes/
+/// share no functions with the rest of the program.
 template <class Row>
 struct LoopRuns {
   ControllerSetup control;

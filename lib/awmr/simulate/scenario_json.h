@@ -7,8 +7,8 @@
 
 namespace awmr {
 
-// Permitted ranges of the numbers in a scenario (listed in SCENARIOS.md). They are wider than any
-// task needs, and narrow enough that the simulation stays finite.
+// Permitted ranges of the numbers in a scenario. They are wider than any task needs, and narrow
+// enough that the simulation stays finite.
 inline constexpr NumberRule kDuration_s{.min = 0.0, .max = 1e6, .min_excluded = true};
 inline constexpr NumberRule kTime_s{.min = 0.0, .max = 1e6};
 inline constexpr NumberRule kCoordinate_m{.min = -1e6, .max = 1e6};

@@ -50,35 +50,26 @@ struct Obstacle {
   T radius_m;            ///< radius_i, m, > 0
 };
 
-/// Parameters of the avoidance.
+/// Parameters of the avoidance, with the symbols above.
 template <class T>
 struct Avoidance {
-  /// mmd_base, m, > 0: minimum manoeuvring distance MMD at speed 0. The avoidance begins at the
-  /// distance MMD from an obstacle. mmd_base must be at least the vehicle's turning radius.
+  /// mmd_base, m, > 0: MMD at speed 0, at least the vehicle's turning radius.
   T mmd_base_m;
-  /// mmd_per_speed, s, >= 0: MMD grows by this per m/s of speed. A suitable value is the delay
-  /// before a turn takes effect (servo, yaw inertia).
+  /// mmd_per_speed, s, >= 0. A suitable value is the delay before a turn takes effect (servo, yaw
+  /// inertia).
   T mmd_per_speed_s;
-  /// sigma, rad, in [0, pi/2): angle by which the blocked sector exceeds the tangent to the
-  /// obstacle, for a vehicle at the obstacle's edge. A larger angle makes the vehicle pass at a
-  /// larger distance.
+  /// sigma, rad, in [0, pi/2). A larger angle makes the vehicle pass at a larger distance.
   T sigma_rad;
   /// vehicle_radius, m, >= 0: radius of the circle around the centre of gravity that encloses the
   /// vehicle.
   T vehicle_radius_m;
-  /// clearance, m, > 0: free distance between that circle and the obstacle.
-  T clearance_m;
-  /// Hysteresis of the distance, m, >= 0. While obstacles are avoided, an obstacle counts until its
-  /// distance D_obs exceeds MMD by this value. If this value were 0, the avoidance could switch on
-  /// and off again and again at D_obs = MMD.
+  T clearance_m;  ///< clearance, m, > 0: free distance between that circle and the obstacle
+  /// Hysteresis of the distance, m, >= 0. If this were 0, the avoidance could switch on and off
+  /// again and again at D_obs = MMD.
   T hysteresis_m;
-  /// Hysteresis of the side, rad, >= 0. The vehicle changes the side on which it passes only if the
-  /// turn to the other side is smaller by more than this. If this were 0, it could swerve left and
-  /// right.
+  /// Hysteresis of the side, rad, >= 0. If this were 0, the vehicle could swerve left and right.
   T side_hysteresis_rad;
-  /// brake, m, > 0: free distance ahead below which the avoidance reduces the speed. It must be at
-  /// least the stopping distance.
-  T brake_m;
+  T brake_m;  ///< brake, m, > 0: at least the stopping distance
 };
 
 /// Range of headings that one obstacle blocks.

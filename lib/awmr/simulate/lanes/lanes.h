@@ -3,9 +3,8 @@
 /// (kernel.inc).
 ///
 /// Before a kernel file includes this file, it defines AWMR_LANES, the name of its instruction set.
-/// This name is a namespace around every type here, so each kernel has its own template instances.
-/// Otherwise, the linker would merge the instances of several kernels, and could keep one with
-/// instructions that the processor does not have.
+/// This name is a namespace around every type here, so each kernel has its own template instances
+/// (README.md, rules for kernel code).
 #pragma once
 
 #include <xsimd/xsimd.hpp>

@@ -1,6 +1,5 @@
-/// `Row`: one number of each of the sixteen runs that are simulated together, as plain data.
-/// Kernels are compiled for other instruction sets: a function shared with the rest of the program
-/// could contain instructions that the processor does not have.
+/// `Row`: one number of each of the sixteen runs that are simulated together. Plain data, because
+/// kernels share no functions with the rest of the program (README.md, rules for kernel code).
 #pragma once
 
 namespace awmr {
