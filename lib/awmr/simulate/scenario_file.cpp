@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "awmr/core/json_document.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/scenario_json.h"
 
@@ -67,7 +68,7 @@ void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
 
 constexpr std::string_view kScenarioSchema = "awmr.scenario/1";
 
-Scenario scenario_from_json(JsonObject& json) {
+Scenario read_fields(JsonObject& json) {
   Scenario scenario;
   json.schema(kScenarioSchema);
   scenario.name = json.string("name");
@@ -86,20 +87,29 @@ Scenario scenario_from_json(JsonObject& json) {
   return scenario;
 }
 
-}  // namespace
-
-Result<Scenario> read_scenario(const std::filesystem::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
+Result<Scenario> scenario_from_json(const Json& document, const std::string& file) {
   std::vector<Fault> faults;
-  JsonObject json(document, path.string(), "", faults);
-  Scenario scenario = scenario_from_json(json);
+  JsonObject json(document, file, "", faults);
+  Scenario scenario = read_fields(json);
   if (!faults.empty()) return input_errors(std::move(faults));
   return scenario;
 }
 
+}  // namespace
+
+Result<Scenario> read_scenario(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
+  return scenario_from_json(document, path.string());
+}
+
+Result<Scenario> scenario_from_text(std::string_view text, const std::string& file) {
+  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_text(text, file));
+  return scenario_from_json(document, file);
+}
+
 std::string scenario_schema() {
   return json_schema_text(kScenarioSchema, "A scenario: task and environment",
-                          [](JsonObject& json) { scenario_from_json(json); });
+                          [](JsonObject& json) { read_fields(json); });
 }
 
 }  // namespace awmr

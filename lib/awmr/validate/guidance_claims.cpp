@@ -8,6 +8,7 @@
 #include <span>
 
 #include "awmr/core/units.h"
+#include "awmr/simulate/scenario_file.h"
 #include "awmr/validate/heading_runs.h"
 #include "awmr/validate/paper_scenarios.h"
 
@@ -27,6 +28,13 @@ constexpr double kAlikeShare = 0.10;
 constexpr double kPathTolerance_m = 1.0;
 /// A value counts as equal to the best value if it is at most this fraction larger.
 constexpr double kAsGoodShare = 0.01;
+
+/// Returns a scenario of paper_scenario_files(). Precondition: it has a file of this name.
+Scenario paper_scenario(std::string_view name) {
+  const auto& files = paper_scenario_files();
+  const auto file = std::ranges::find(files, name, &EmbeddedFile::path);
+  return scenario_from_text(file->bytes, std::string(name)).value();
+}
 
 double largest_steering_deg(const ModeRun& run) {
   double largest = 0.0;
@@ -98,7 +106,7 @@ double final_cross_track_m(const ModeRun& run) {
 }
 
 Claim line_followed(const ModeRuns& runs) {
-  const Scenario scenario = line_scenario();
+  const Scenario scenario = paper_scenario("c9_line");
   const auto& law = std::get<LineOfSight<double>>(std::get<LinePath>(scenario.guidance).law);
   const double accepted_m = kOnTheLineShare * law.width_m;
   const auto on_it = [&](const ModeRun& run) {
@@ -189,7 +197,7 @@ OffPath off_path_by_mode(const ModeRuns& runs) {
 }
 
 Claim timed_path_followed(const ModeRuns& open, const OffPath& closed_off_m) {
-  const Scenario open_scenario = lissajous_scenario(false);
+  const Scenario open_scenario = paper_scenario("c11_lissajous");
   OffPath off_m = off_path_by_mode(open);
   const auto off = [&](const ModeRun& run) -> std::optional<double> { return off_m[run.mode]; };
   const auto closed_off = [&](const ModeRun& run) -> std::optional<double> {
@@ -286,17 +294,17 @@ std::vector<std::vector<Claim>> check_guidance_claims(std::span<const ClaimSetti
   const auto add = [&](const auto& claim, const auto&... runs) {
     for (std::size_t i = 0; i < claims.size(); ++i) claims[i].push_back(claim(runs[i]...));
   };
-  const std::vector<ModeRuns> points = run_all(settings, waypoint_scenario());
+  const std::vector<ModeRuns> points = run_all(settings, paper_scenario("c8_waypoints"));
   add(waypoints_reached, points);
-  add(line_followed, run_all(settings, line_scenario()));
-  add(obstacles_avoided, run_all(settings, obstacle_on_line_scenario()),
-      run_all(settings, obstacle_between_waypoints_scenario()));
+  add(line_followed, run_all(settings, paper_scenario("c9_line")));
+  add(obstacles_avoided, run_all(settings, paper_scenario("c10_obstacle_on_line")),
+      run_all(settings, paper_scenario("c10_obstacle_between_waypoints")));
   std::vector<OffPath> closed;
-  for (const ModeRuns& runs : run_all(settings, lissajous_scenario(true))) {
+  for (const ModeRuns& runs : run_all(settings, paper_scenario("c11_lissajous_closed"))) {
     closed.push_back(off_path_by_mode(runs));
   }
-  add(timed_path_followed, run_all(settings, lissajous_scenario(false)), closed);
-  add(best_modes, points, run_all(settings, polyline_scenario()));
+  add(timed_path_followed, run_all(settings, paper_scenario("c11_lissajous")), closed);
+  add(best_modes, points, run_all(settings, paper_scenario("c12_waypoints_and_line")));
   return claims;
 }
 

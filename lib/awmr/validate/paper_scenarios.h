@@ -1,16 +1,23 @@
-/// Scenarios of the paper's runs with guidance (C8 to C12). A test checks that they equal the files
-/// configs/paper/scenarios/c8* to c12*. Private to validate/.
+/// Scenarios of the paper's runs with guidance (C8 to C12), compiled into the program. Private to
+/// validate/.
 #pragma once
 
-#include "awmr/simulate/scenario.h"
+#include <vector>
+
+#include "awmr/core/embedded_file.h"
 
 namespace awmr {
 
-Scenario waypoint_scenario();                    ///< C8                     [paper 5.1]
-Scenario line_scenario();                        ///< C9                     [paper 5.2.1]
-Scenario obstacle_on_line_scenario();            ///< C10, figure 43         [paper 5.2.2]
-Scenario obstacle_between_waypoints_scenario();  ///< C10, figure 44         [paper 5.2.2]
-Scenario lissajous_scenario(bool closed_loop);   ///< C11                    [paper (116)-(118)]
-Scenario polyline_scenario();                    ///< C12: the waypoints of C8 as a polyline
+/// Returns these files of configs/paper/scenarios/. Each has its name without ".json" as path. The
+/// paper does not print the acceptance radius of the waypoints, the approach angle of the
+/// line-following law and the parameters of obstacle avoidance: this project chose them. The
+/// minimum manoeuvring distance is the turning radius of the steering mode (5 m at any speed), plus
+/// 1 m, plus the distance driven in 1 s.
+///     c8_waypoints                                                         [paper 5.1]
+///     c9_line                                                              [paper 5.2.1]
+///     c10_obstacle_on_line (figure 43), c10_obstacle_between_waypoints (44)    [paper 5.2.2]
+///     c11_lissajous, c11_lissajous_closed (with position feedback)         [paper (116)-(118)]
+///     c12_waypoints_and_line: the waypoints of C8 as a polyline
+const std::vector<EmbeddedFile>& paper_scenario_files();
 
 }  // namespace awmr
