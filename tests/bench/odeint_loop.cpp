@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "awmr/compare/sampled_plants.h"
+#include "awmr/compare/comparison_inputs.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/closed_loop.h"

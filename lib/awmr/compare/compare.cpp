@@ -10,9 +10,8 @@
 #include <utility>
 
 #include "awmr/compare/break_even.h"
-#include "awmr/compare/check_comparison.h"
+#include "awmr/compare/comparison_inputs.h"
 #include "awmr/compare/decision.h"
-#include "awmr/compare/sampled_plants.h"
 #include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
 #include "awmr/model/fitted_law.h"

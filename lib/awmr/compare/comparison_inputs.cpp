@@ -1,14 +1,16 @@
-#include "awmr/compare/check_comparison.h"
+#include "awmr/compare/comparison_inputs.h"
 
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
+#include "awmr/simulate/plant_sampler.h"
 #include "awmr/simulate/simulate.h"
 
 namespace awmr {
@@ -110,6 +112,37 @@ Status check_comparison(const Model& model, const std::vector<NamedGains>& gains
     }
   }
   return {};
+}
+
+Result<SampledPlants> sample_plants(const Model& model, const std::vector<Scenario>& scenarios,
+                                    const CompareOptions& options) {
+  // Checked with the nominal model, which the controller uses in all samples.
+  for (const Scenario& scenario : scenarios) AWMR_RETURN_IF_ERROR(check_scenario(scenario, model));
+  SampledPlants plants{.nominal = {}, .vehicles = {}, .samples = at(options.samples) + 1};
+  AWMR_ASSIGN_OR_RETURN(plants.nominal, model.plant());
+  plants.vehicles.resize(scenarios.size() * plants.samples);
+  std::optional<PlantSampler> sampler;
+  if (options.samples > 0) {
+    AWMR_ASSIGN_OR_RETURN(sampler, PlantSampler::make(model));
+  }
+  for (std::size_t sample = 0; sample < plants.samples; ++sample) {
+    Model drawn = model;
+    if (sample > 0) {
+      AWMR_ASSIGN_OR_RETURN(drawn, sampler->draw_model(options.seed, static_cast<int>(sample)));
+    }
+    AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, drawn.plant());
+    for (std::size_t i = 0; i < scenarios.size(); ++i) {
+      Plant<double>& vehicle = plants.vehicles[i * plants.samples + sample];
+      vehicle = plant;
+      if (!scenarios[i].corner.empty()) {
+        AWMR_ASSIGN_OR_RETURN(const Model corner, model_at_corner(drawn, scenarios[i]));
+        AWMR_ASSIGN_OR_RETURN(vehicle, corner.plant());
+      }
+      AWMR_RETURN_IF_ERROR(
+          check_work(vehicle, model.file, scenarios[i], model.vehicle.sample_time_s));
+    }
+  }
+  return plants;
 }
 
 }  // namespace awmr

@@ -1,5 +1,5 @@
-/// Plants that a comparison simulates: the nominal plant and the drawn samples. Private to
-/// compare/.
+/// Inputs of a comparison: their checks, and the plants that it simulates (the nominal plant and
+/// the drawn samples). Private to compare/.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +9,19 @@
 
 namespace awmr {
 
+/// Checks the input of compare(), before anything is simulated. Errors: those of compare() about
+/// the options, the number of runs, and the names and numbers of scenarios and gains; the errors of
+/// controller_for().
+Status check_comparison(const Model& model, const std::vector<NamedGains>& gains,
+                        const std::vector<Scenario>& scenarios, const CompareOptions& options);
+
 struct SampledPlants {
   Plant<double> nominal{};              ///< the model's own values, which the controller uses
   std::vector<Plant<double>> vehicles;  ///< plants by scenario, then sample 0, 1, ...
-  std::vector<std::size_t> first;       ///< index in `vehicles` of each scenario's sample 0
+  std::size_t samples = 0;              ///< number of samples, including sample 0
 
   const Plant<double>& vehicle(std::size_t scenario, std::size_t sample) const {
-    return vehicles[first[scenario] + sample];
+    return vehicles[scenario * samples + sample];
   }
 };
 
