@@ -15,7 +15,6 @@
 #include "awmr/model/vehicle_file.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/trials/column_guess.h"
-#include "awmr/trials/load.h"
 #include "awmr/tune/tune_file.h"
 #include "commands.h"
 #include "option_values.h"
@@ -103,8 +102,7 @@ ParameterId shown_by(TrialKind kind) {
 
 /// Returns the trial files that have at least one row. Reports the files without rows as missing.
 TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check) {
-  TrialFiles files{
-      .vehicle = vehicle, .steady_from_logs = project.steady_from_logs, .options = project.trials};
+  TrialFiles files = project.trials;
   const auto is_recorded = [&](const fs::path& path, TrialKind kind) {
     const std::size_t faults = check.faults.size();
     if (has_rows(path, check)) return true;
@@ -116,16 +114,12 @@ TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check
                                                    : trial_of(vehicle, shown_by(kind)))});
     return false;
   };
-  if (project.surge && is_recorded(*project.surge, TrialKind::kSurge)) files.surge = project.surge;
-  if (project.turning && is_recorded(*project.turning, TrialKind::kTurning)) {
-    files.turning = project.turning;
-  }
-  for (const fs::path& path : project.coastdowns) {
-    if (is_recorded(path, TrialKind::kCoastdown)) files.coastdowns.push_back(path);
-  }
-  for (const fs::path& path : project.logs) {
-    if (is_recorded(path, TrialKind::kLog)) files.logs.push_back(path);
-  }
+  if (files.surge && !is_recorded(*files.surge, TrialKind::kSurge)) files.surge.reset();
+  if (files.turning && !is_recorded(*files.turning, TrialKind::kTurning)) files.turning.reset();
+  std::erase_if(files.coastdowns,
+                [&](const fs::path& path) { return !is_recorded(path, TrialKind::kCoastdown); });
+  std::erase_if(files.logs,
+                [&](const fs::path& path) { return !is_recorded(path, TrialKind::kLog); });
   return files;
 }
 
@@ -134,16 +128,17 @@ TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check
 /// resistance. `is_complete`: false if the file gives only the drive of `vehicle`.
 void check_what_nothing_shows(const Project& project, const Vehicle& vehicle, bool is_complete,
                               Check& check) {
-  if (!project.logs.empty()) return;
+  const TrialFiles& trials = project.trials;
+  if (!trials.logs.empty()) return;
   const auto nothing_shows = [&](ParameterId id) {
     check.missing.push_back(
         {"", 0, Severity::kError, "missing-trial",
          fmt::format("no trial determines {} ({}), which awmr tune needs; record {}", info(id).name,
                      info(id).meaning, trial_of(vehicle, id))});
   };
-  if (!project.surge) nothing_shows(ParameterId::kSurgeAlpha);
-  if (!project.turning) nothing_shows(ParameterId::kYawAlpha);
-  if (project.coastdowns.empty()) nothing_shows(ParameterId::kMassNorm);
+  if (!trials.surge) nothing_shows(ParameterId::kSurgeAlpha);
+  if (!trials.turning) nothing_shows(ParameterId::kYawAlpha);
+  if (trials.coastdowns.empty()) nothing_shows(ParameterId::kMassNorm);
   if (!is_complete || vehicle.sway_alpha) return;
   check.notes.push_back(
       {project.vehicle.string() + ":/sway_alpha", 0, Severity::kNote, "assumed-sway",
@@ -181,9 +176,10 @@ void add_mapping_hint(const fs::path& path, TrialKind kind, const TrialOptions& 
                                 name_in(kTrialKindNames, kind))});
 }
 
-void add_mapping_hints(const TrialFiles& files, std::vector<Fault>& faults) {
+void add_mapping_hints(const Vehicle& vehicle, const TrialFiles& files,
+                       std::vector<Fault>& faults) {
   const auto add = [&](const fs::path& path, TrialKind kind) {
-    add_mapping_hint(path, kind, files.options, 2.0 * files.vehicle.half_track_m, faults);
+    add_mapping_hint(path, kind, files.options, 2.0 * vehicle.half_track_m, faults);
   };
   if (files.surge) add(*files.surge, TrialKind::kSurge);
   if (files.turning) add(*files.turning, TrialKind::kTurning);
@@ -192,19 +188,18 @@ void add_mapping_hints(const TrialFiles& files, std::vector<Fault>& faults) {
 }
 
 /// Checks the trials for consistency with each other and with the vehicle.
-void check_trials(TrialFiles files, bool all_recorded, Check& check) {
-  const bool nothing = !files.surge && !files.turning && files.coastdowns.empty();
-  if (nothing && files.logs.empty()) return;
+void check_trials(const Vehicle& vehicle, TrialFiles files, bool all_recorded, Check& check) {
+  if (paths_of(files).empty()) return;
   // A column mapping that no file uses is usually an error. But it is accepted as long as some
   // files have no rows: it may be for one of these, which are not read.
   for (ColumnMapping& mapping : files.options.columns) mapping.standing |= !all_recorded;
   files.steady_from_logs = files.steady_from_logs && !files.logs.empty();
   const bool as_is = files.options.as_is;
   files.options.as_is = true;
-  const auto trials = load_trials(files);
+  const auto trials = load_trials(vehicle, files);
   if (!trials) {
     take(trials.error(), check.faults);
-    return add_mapping_hints(files, check.faults);
+    return add_mapping_hints(vehicle, files, check.faults);
   }
   const auto contradicts = [](const Finding& finding) {
     return finding.code == "table-contradiction" || finding.code == "log-contradiction";
@@ -216,7 +211,7 @@ void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   // corrects it.
   std::erase_if(check.notes, contradicts);
   files.options.as_is = false;
-  if (const auto refused = load_trials(files); !refused) {
+  if (const auto refused = load_trials(vehicle, files); !refused) {
     for (const Fault& fault : refused.error().faults) {
       check.implausible.push_back(
           {fault.place, 0, Severity::kError, "contradiction", fault.message});
@@ -236,9 +231,8 @@ Result<Check> check_project(const Project& project) {
   check_what_nothing_shows(project, described, vehicle.has_value(), check);
   if (vehicle && check.faults.empty()) {
     check.implausible = plausibility_findings(*vehicle, Severity::kError, project.vehicle.string());
-    const bool all_recorded = files.surge == project.surge && files.turning == project.turning &&
-                              files.coastdowns == project.coastdowns && files.logs == project.logs;
-    check_trials(files, all_recorded, check);
+    const bool all_recorded = paths_of(files) == paths_of(project.trials);
+    check_trials(*vehicle, files, all_recorded, check);
   }
   if (!check.faults.empty()) return input_errors(std::move(check.faults));
   return check;

@@ -13,7 +13,7 @@
 #include "awmr/emit/export.h"
 #include "awmr/identify/identify.h"
 #include "awmr/identify/planning/recover.h"
-#include "awmr/trials/read_trials.h"
+#include "awmr/trials/load.h"
 #include "awmr/tune/tune.h"
 #include "awmr/validate/validate.h"
 #include "console.h"
@@ -43,14 +43,8 @@ void add_check(CLI::App& app, Session& session);
 
 struct IdentifyCommand {
   fs::path vehicle;
-  std::optional<fs::path> surge;
-  std::vector<fs::path> coastdowns;
-  std::optional<fs::path> turning;
-  std::vector<fs::path> logs;
-  /// true: also use steady stretches of the logs as surge and turning runs
-  bool steady_from_logs = false;
+  TrialFiles trials;
   IdentifyOptions identify;
-  TrialOptions trials;
   fs::path output;
   /// Names under which the output file lists its inputs. Empty: the file names. Only `run` sets
   /// names.
@@ -62,7 +56,7 @@ void add_identify(CLI::App& app, Session& session);
 /// Records a drive, meanwhile checks and fits the data repeatedly, and at the end identifies the
 /// model.
 struct LiveCommand {
-  IdentifyCommand identify;  ///< options of the identification; execute() sets `logs`
+  IdentifyCommand identify;  ///< options of the identification; execute() sets its logs
   StreamSource source = {};
   std::optional<fs::path> record = {};  ///< file of the recording; default: next to the model
   double every_s = 5.0;                 ///< interval between two updates of the display, > 0

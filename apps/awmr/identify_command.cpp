@@ -9,7 +9,6 @@
 #include "awmr/model/model_file.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/model/vehicle_file.h"
-#include "awmr/trials/load.h"
 #include "commands.h"
 #include "identify_options.h"
 #include "identify_words.h"
@@ -22,16 +21,14 @@ namespace {
 
 std::vector<fs::path> inputs_of(const IdentifyCommand& command) {
   std::vector<fs::path> paths{command.vehicle};
-  if (command.surge) paths.push_back(*command.surge);
-  paths.insert(paths.end(), command.coastdowns.begin(), command.coastdowns.end());
-  if (command.turning) paths.push_back(*command.turning);
-  paths.insert(paths.end(), command.logs.begin(), command.logs.end());
+  const std::vector<fs::path> trials = paths_of(command.trials);
+  paths.insert(paths.end(), trials.begin(), trials.end());
   return paths;
 }
 
 Result<Provenance> provenance_of(const IdentifyCommand& command) {
   Provenance provenance{"identify", described(command.identify), {}};
-  describe_reading(command.trials, command.steady_from_logs, provenance.options);
+  describe_reading(command.trials, provenance.options);
   AWMR_ASSIGN_OR_RETURN(provenance.inputs, input_files(inputs_of(command), command.names));
   return provenance;
 }
@@ -94,27 +91,20 @@ std::string estimators_of(const Model& model) {
 }  // namespace
 
 Result<Outcome> execute(const IdentifyCommand& command) {
-  if (!command.surge && command.coastdowns.empty() && !command.turning && command.logs.empty()) {
+  if (paths_of(command.trials).empty()) {
     return input_error(ErrorCode::kMissing, "",
                        "no trials: give at least one of --surge, --coastdown, --turning, --log");
   }
-  if (command.steady_from_logs && command.logs.empty()) {
+  if (command.trials.steady_from_logs && command.trials.logs.empty()) {
     return input_error(ErrorCode::kMissing, "--steady-from-log", "needs a log: give --log FILE");
   }
   AWMR_RETURN_IF_ERROR(check_output(command.output, inputs_of(command)));
   AWMR_ASSIGN_OR_RETURN(Vehicle vehicle, read_vehicle(command.vehicle));
-  if (!command.trials.as_is) {
+  if (!command.trials.options.as_is) {
     AWMR_RETURN_IF_ERROR(check_plausible(vehicle, command.vehicle.string() + ":",
                                          "Correct it, or give " + option_text("as-is")));
   }
-  AWMR_ASSIGN_OR_RETURN(const Trials trials,
-                        load_trials({.vehicle = std::move(vehicle),
-                                     .surge = command.surge,
-                                     .turning = command.turning,
-                                     .coastdowns = command.coastdowns,
-                                     .logs = command.logs,
-                                     .steady_from_logs = command.steady_from_logs,
-                                     .options = command.trials}));
+  AWMR_ASSIGN_OR_RETURN(const Trials trials, load_trials(std::move(vehicle), command.trials));
   AWMR_ASSIGN_OR_RETURN(Provenance provenance, provenance_of(command));
   AWMR_ASSIGN_OR_RETURN(Identification identified,
                         identify_with_progress(trials, command.identify));
@@ -146,11 +136,11 @@ void add_identify(CLI::App& app, Session& session) {
         return execute(command);
       });
   add_table_files(*sub, words->command);
-  add_file(*sub, "--log", words->command.logs,
+  add_file(*sub, "--log", words->command.trials.logs,
            "Driving log: CSV, or another format that awmr map reads; may be repeated");
   add_fit_options(*sub, *words);
   add_log_options(*sub, words->command);
-  add_part_options(*sub, words->command.trials, words->excluded);
+  add_part_options(*sub, words->command.trials.options, words->excluded);
   add_reading_options(*sub, *words);
   add_output(*sub, words->command.output, "model.json to write");
 }

@@ -184,13 +184,14 @@ void describe_parts(const TrialOptions& trials,
   }
 }
 
-void describe_reading(const TrialOptions& trials, bool steady_from_logs,
+void describe_reading(const TrialFiles& trials,
                       std::vector<std::pair<std::string, std::string>>& words) {
-  words.emplace_back("prefer", name_in(kPreferenceNames, trials.preference));
-  if (trials.as_is) words.emplace_back("as-is", "true");
-  describe_parts(trials, words);
-  if (steady_from_logs) words.emplace_back("steady_from_logs", "true");
-  for (const ColumnMapping& mapping : trials.columns) {
+  const TrialOptions& options = trials.options;
+  words.emplace_back("prefer", name_in(kPreferenceNames, options.preference));
+  if (options.as_is) words.emplace_back("as-is", "true");
+  describe_parts(options, words);
+  if (trials.steady_from_logs) words.emplace_back("steady_from_logs", "true");
+  for (const ColumnMapping& mapping : options.columns) {
     words.emplace_back("column", text_of(mapping));
   }
 }

@@ -8,7 +8,7 @@
 
 #include "awmr/core/result.h"
 #include "awmr/identify/identify.h"
-#include "awmr/trials/read_trials.h"
+#include "awmr/trials/load.h"
 
 namespace awmr::cli {
 
@@ -44,7 +44,7 @@ void describe_parts(const TrialOptions& trials,
                     std::vector<std::pair<std::string, std::string>>& words);
 
 /// Appends the options with which the trials were read, as pairs of name and value, to `words`.
-void describe_reading(const TrialOptions& trials, bool steady_from_logs,
+void describe_reading(const TrialFiles& trials,
                       std::vector<std::pair<std::string, std::string>>& words);
 
 }  // namespace awmr::cli

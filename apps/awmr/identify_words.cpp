@@ -9,8 +9,8 @@ namespace awmr::cli {
 
 Result<IdentifyCommand> command_of(const IdentifyWords& words) {
   IdentifyCommand command = words.command;
-  AWMR_ASSIGN_OR_RETURN(command.trials.columns, column_mappings(words.columns));
-  AWMR_RETURN_IF_ERROR(use_parts(words.excluded, command.trials));
+  AWMR_ASSIGN_OR_RETURN(command.trials.options.columns, column_mappings(words.columns));
+  AWMR_RETURN_IF_ERROR(use_parts(words.excluded, command.trials.options));
   for (const std::string& name : words.requested) {
     AWMR_RETURN_IF_ERROR(add_requested(name, command.identify));
   }
@@ -20,20 +20,20 @@ Result<IdentifyCommand> command_of(const IdentifyWords& words) {
   if (!words.method.empty()) command.identify.method = value_in(kMethodNames, words.method);
   if (!words.noise.empty()) command.identify.noise = value_in(kErrorModelNames, words.noise);
   command.identify.loss = *value_in(kLossNames, words.loss);
-  command.trials.preference = *value_in(kPreferenceNames, words.prefer);
-  command.identify.keeps_outliers = command.trials.as_is;
+  command.trials.options.preference = *value_in(kPreferenceNames, words.prefer);
+  command.identify.keeps_outliers = command.trials.options.as_is;
   return command;
 }
 
 void add_table_files(CLI::App& sub, IdentifyCommand& command) {
   add_file(sub, "--vehicle", command.vehicle, "vehicle.json: known properties of the vehicle")
       ->required();
-  add_file(sub, "--surge", command.surge, "CSV of runs at constant thrust, wheels straight");
+  add_file(sub, "--surge", command.trials.surge, "CSV of runs at constant thrust, wheels straight");
   add_file(
-      sub, "--coastdown", command.coastdowns,
+      sub, "--coastdown", command.trials.coastdowns,
       "CSV of coast-downs, motors off: stop times, whole curves or times per speed bin; may be "
       "repeated");
-  add_file(sub, "--turning", command.turning, "CSV of runs at constant thrust and steering");
+  add_file(sub, "--turning", command.trials.turning, "CSV of runs at constant thrust and steering");
 }
 
 void add_fit_options(CLI::App& sub, IdentifyWords& words) {
@@ -66,7 +66,7 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
 }
 
 void add_log_options(CLI::App& sub, IdentifyCommand& command) {
-  sub.add_flag("--steady-from-log", command.steady_from_logs,
+  sub.add_flag("--steady-from-log", command.trials.steady_from_logs,
                "Use steady stretches of the logs as surge and turning runs");
   sub.add_option("--starts", command.identify.starts,
                  "Number of random initial guesses of a log fit without tables (default 6)")
@@ -104,7 +104,7 @@ void add_end_options(CLI::App& sub, TrialOptions& trials, std::vector<std::strin
 
 void add_reading_options(CLI::App& sub, IdentifyWords& words) {
   sub.add_flag(
-      "--as-is", words.command.trials.as_is,
+      "--as-is", words.command.trials.options.as_is,
       "Accept trials that appear to have wrong units or signs, or left and right exchanged, "
       "and keep gross outliers");
   sub.add_option("--prefer", words.prefer,

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 
-#include "awmr/core/input_file.h"
 #include "awmr/core/json.h"
 #include "awmr/core/json_document.h"
-#include "awmr/trials/log_files.h"
 
 namespace awmr::cli {
 
@@ -20,20 +18,6 @@ InputNames names_in_project(const std::vector<std::filesystem::path>& paths,
     if (!relative.empty()) names[path] = relative.generic_string();
   }
   return names;
-}
-
-Result<std::vector<InputFile>> input_files(const std::vector<std::filesystem::path>& paths,
-                                           const InputNames& names) {
-  std::vector<InputFile> files;
-  for (const std::filesystem::path& path : paths) {
-    AWMR_ASSIGN_OR_RETURN(const std::vector<std::filesystem::path> parts, files_of(path));
-    for (const std::filesystem::path& part : parts) {
-      AWMR_ASSIGN_OR_RETURN(InputFile file, input_file(part));
-      if (const auto name = names.find(part); name != names.end()) file.name = name->second;
-      files.push_back(std::move(file));
-    }
-  }
-  return files;
 }
 
 namespace {

@@ -1,8 +1,7 @@
-/// Inputs that several commands have: lists of files with their hashes, and column mappings.
+/// Inputs that several commands have: names of files in a project, and column mappings.
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,8 +9,8 @@
 #include <vector>
 
 #include "awmr/core/csv.h"
-#include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
+#include "awmr/trials/log_files.h"
 
 namespace awmr::cli {
 
@@ -21,18 +20,9 @@ inline constexpr const char* kColumnHelp =
     "With FILE (drive_2.csv:speed_mps=V), only for this file, else for every file. "
     "Column names with special characters need backticks. May be repeated";
 
-/// Names under which output files list their input files. The key is the path of an input file.
-using InputNames = std::map<std::filesystem::path, std::string>;
-
 /// Returns the names of these paths: relative to the project file's directory, as written in it.
 InputNames names_in_project(const std::vector<std::filesystem::path>& paths,
                             const std::filesystem::path& project);
-
-/// Returns name and SHA-256 of each file, in the order of `paths`. A directory in `paths` means all
-/// log files in it. A file that is not in `names` gets its file name without directory. Errors:
-/// those of input_file() and files_of() for the first file that fails.
-Result<std::vector<InputFile>> input_files(const std::vector<std::filesystem::path>& paths,
-                                           const InputNames& names = {});
 
 inline constexpr const char* kColumnsFileHelp =
     "JSON file whose object `columns` has column mappings, as `awmr map -o` writes it; --column "

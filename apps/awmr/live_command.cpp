@@ -43,9 +43,7 @@ constexpr double kAtFirst_s = 20.0;
 std::vector<fs::path> inputs_of(const LiveCommand& command) {
   std::vector<fs::path> paths{command.identify.vehicle};
   if (command.source.log && *command.source.log != "-") paths.push_back(*command.source.log);
-  if (command.identify.surge) paths.push_back(*command.identify.surge);
-  for (const fs::path& path : command.identify.coastdowns) paths.push_back(path);
-  if (command.identify.turning) paths.push_back(*command.identify.turning);
+  for (const fs::path& path : paths_of(command.identify.trials)) paths.push_back(path);
   return paths;
 }
 
@@ -161,7 +159,7 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
 
 /// Writes the complete recording, and the model that `identify` fits to it.
 Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
-  const fs::path& record = command.identify.logs.front();
+  const fs::path& record = command.identify.trials.logs.front();
   AWMR_RETURN_IF_ERROR(write_file(record, followed.recording.text()));
   AWMR_ASSIGN_OR_RETURN(Outcome outcome, execute(command.identify));
   outcome.summary += fmt::format("{}: {} rows recorded\n", name_in(kLiveEndWords, followed.end),
@@ -226,14 +224,14 @@ Result<Outcome> execute(const LiveCommand& requested) {
   LiveCommand command = requested;
   AWMR_ASSIGN_OR_RETURN(const fs::path record, record_of(command));
   AWMR_RETURN_IF_ERROR(check_output(record, inputs_of(command)));
-  command.identify.logs = {record};
+  command.identify.trials.logs = {record};
   AWMR_ASSIGN_OR_RETURN(Vehicle vehicle, read_vehicle(command.identify.vehicle));
-  if (!command.identify.trials.as_is) {
+  if (!command.identify.trials.options.as_is) {
     AWMR_RETURN_IF_ERROR(check_plausible(vehicle, command.identify.vehicle.string() + ":",
                                          "Correct it, or give " + option_text("as-is")));
   }
   AWMR_ASSIGN_OR_RETURN(const TrialOptions options,
-                        with_vehicle_columns(command.identify.trials, vehicle));
+                        with_vehicle_columns(command.identify.trials.options, vehicle));
   AWMR_ASSIGN_OR_RETURN(OpenStream source, open_stream(command.source));
   LiveScreen screen("recording " + record.string());
   const LiveFit fit(command, std::move(vehicle));

@@ -34,13 +34,8 @@ bool has_enough(const LiveUpdate& update) {
 }
 
 LiveFit::LiveFit(const LiveCommand& command, Vehicle vehicle)
-    : files_{.vehicle = std::move(vehicle),
-             .surge = command.identify.surge,
-             .turning = command.identify.turning,
-             .coastdowns = command.identify.coastdowns,
-             .logs = command.identify.logs,
-             .steady_from_logs = command.identify.steady_from_logs,
-             .options = command.identify.trials},
+    : vehicle_(std::move(vehicle)),
+      files_(command.identify.trials),
       options_(command.identify.identify),
       enough_(command.enough) {
   // To save time, diagnostics that do not change the estimates are left out here. The final fit
@@ -65,7 +60,7 @@ LiveUpdate LiveFit::update(const Recording& recording) const {
 }
 
 void LiveFit::fit(LiveUpdate& update) const {
-  const auto trials = load_trials(files_);
+  const auto trials = load_trials(vehicle_, files_);
   if (!trials) {
     update.faults = trials.error().faults;
     return;

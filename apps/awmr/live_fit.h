@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "awmr/trials/load.h"
 #include "awmr/trials/recording.h"
 #include "commands.h"
 #include "live_screen.h"
@@ -29,6 +28,7 @@ class LiveFit {
  private:
   void fit(LiveUpdate& update) const;
 
+  Vehicle vehicle_;
   TrialFiles files_;
   IdentifyOptions options_;
   double enough_;

@@ -62,7 +62,7 @@ void read_columns(JsonObject json, const std::string& file, Project& project) {
     const std::string expression = json.string(name);
     if (auto mapping = parse_column(name, expression)) {
       if (!file.empty()) mapping->file = file;
-      project.trials.columns.push_back(*mapping);
+      project.trials.options.columns.push_back(*mapping);
     } else {
       json.fault(name, mapping.error());
     }
@@ -70,23 +70,20 @@ void read_columns(JsonObject json, const std::string& file, Project& project) {
 }
 
 void read_trials(JsonObject json, const FileNames& files, Project& project) {
-  project.surge = files.maybe_at(json, "surge");
-  if (const auto one = files.maybe_at(json, "coastdown")) project.coastdowns.push_back(*one);
-  project.turning = files.maybe_at(json, "turning");
+  project.trials.surge = files.maybe_at(json, "surge");
+  if (const auto one = files.maybe_at(json, "coastdown")) project.trials.coastdowns.push_back(*one);
+  project.trials.turning = files.maybe_at(json, "turning");
   if (json.has("coastdowns")) {
-    std::ranges::move(files.all_at(json, "coastdowns"), std::back_inserter(project.coastdowns));
+    std::ranges::move(files.all_at(json, "coastdowns"),
+                      std::back_inserter(project.trials.coastdowns));
   }
-  if (json.has("logs")) project.logs = files.all_at(json, "logs");
+  if (json.has("logs")) project.trials.logs = files.all_at(json, "logs");
   if (auto columns = json.optional_object("columns")) {
     for (const std::string& name : columns->keys()) {
       read_columns(columns->object(name), files.of(name).string(), project);
     }
   }
   json.reject_unknown_keys();
-}
-
-bool has_trials(const Project& project) {
-  return project.surge || project.turning || !project.coastdowns.empty() || !project.logs.empty();
 }
 
 void read_identify(JsonObject json, Project& project) {
@@ -98,7 +95,8 @@ void read_identify(JsonObject json, Project& project) {
   choice("method", kMethodNames, [&](Method value) { options.method = value; });
   choice("noise", kErrorModelNames, [&](ErrorModel value) { options.noise = value; });
   choice("loss", kLossNames, [&](Loss value) { options.loss = value; });
-  choice("prefer", kPreferenceNames, [&](Preference value) { project.trials.preference = value; });
+  choice("prefer", kPreferenceNames,
+         [&](Preference value) { project.trials.options.preference = value; });
   const auto each = [&json](const char* key, const auto& add) {
     if (!json.has(key)) return;
     for (const std::string& text : json.strings(key)) {
@@ -109,19 +107,21 @@ void read_identify(JsonObject json, Project& project) {
   };
   each("family", [&](const std::string& text) { return add_family(text, options); });
   each("fit", [&](const std::string& text) { return add_requested(text, options); });
-  each("exclude", [&](const std::string& text) { return add_excluded(text, project.trials); });
+  each("exclude",
+       [&](const std::string& text) { return add_excluded(text, project.trials.options); });
   constexpr NumberRule kTime_s{.min = -kMaxTime_s, .max = kMaxTime_s};
-  Interval& used_s = project.trials.used_s;
+  Interval& used_s = project.trials.options.used_s;
   used_s.lo = json.optional_number("from_s", kTime_s).value_or(used_s.lo);
   used_s.hi = json.optional_number("until_s", kTime_s).value_or(used_s.hi);
-  if (const auto used = check_used(project.trials); !used) json.fault("until_s", used.error());
+  if (const auto used = check_used(project.trials.options); !used)
+    json.fault("until_s", used.error());
   options.joint = json.optional_boolean("joint").value_or(false);
   options.seed =
       static_cast<std::uint64_t>(json.optional_integer("seed", 0, 1000000000L).value_or(1));
   options.bootstrap = static_cast<int>(json.optional_integer("bootstrap", 0, 1000000).value_or(0));
-  project.trials.as_is = json.optional_boolean("as_is").value_or(false);
-  options.keeps_outliers = project.trials.as_is;
-  project.steady_from_logs = json.optional_boolean("steady_from_logs").value_or(false);
+  project.trials.options.as_is = json.optional_boolean("as_is").value_or(false);
+  options.keeps_outliers = project.trials.options.as_is;
+  project.trials.steady_from_logs = json.optional_boolean("steady_from_logs").value_or(false);
   json.reject_unknown_keys();
 }
 
@@ -161,7 +161,7 @@ Project project_from_json(JsonObject& json, const fs::path& path,
   const FileNames files(path, faults);
   project.vehicle = files.at(json, "vehicle");
   read_trials(json.object("trials"), files, project);
-  if (faults.empty() && !has_trials(project)) {
+  if (faults.empty() && paths_of(project.trials).empty()) {
     json.fault(ErrorCode::kMissing, "trials",
                "no trials: give at least one of surge, coastdown, turning, logs");
   }

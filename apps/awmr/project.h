@@ -10,19 +10,14 @@
 #include "awmr/core/result.h"
 #include "awmr/identify/identify.h"
 #include "awmr/simulate/validity.h"
-#include "awmr/trials/read_trials.h"
+#include "awmr/trials/load.h"
 
 namespace awmr::cli {
 
 /// Content of a project file, with resolved paths (in the file: relative to its directory).
 struct Project {
   std::filesystem::path vehicle;
-  std::optional<std::filesystem::path> surge;
-  std::vector<std::filesystem::path> coastdowns;
-  std::optional<std::filesystem::path> turning;
-  std::vector<std::filesystem::path> logs;
-  bool steady_from_logs = false;
-  TrialOptions trials;
+  TrialFiles trials;
   IdentifyOptions identify;
   std::optional<std::filesystem::path> tune;  ///< tune.json
   std::vector<std::filesystem::path> scenarios;

@@ -11,7 +11,6 @@
 #include "awmr/model/plausibility.h"
 #include "awmr/model/vehicle_file.h"
 #include "awmr/simulate/scenario_file.h"
-#include "awmr/trials/load.h"
 #include "awmr/tune/tune_file.h"
 #include "commands.h"
 #include "json_output.h"
@@ -52,17 +51,11 @@ void add_step(Steps& steps, const char* title, Outcome step) {
 
 Result<Outcome> identify_step(const Project& project, const InputNames& names,
                               const fs::path& model) {
-  return for_project("identify",
-                     execute(IdentifyCommand{.vehicle = project.vehicle,
-                                             .surge = project.surge,
-                                             .coastdowns = project.coastdowns,
-                                             .turning = project.turning,
-                                             .logs = project.logs,
-                                             .steady_from_logs = project.steady_from_logs,
-                                             .identify = project.identify,
-                                             .trials = project.trials,
-                                             .output = model,
-                                             .names = names}));
+  return for_project("identify", execute(IdentifyCommand{.vehicle = project.vehicle,
+                                                         .trials = project.trials,
+                                                         .identify = project.identify,
+                                                         .output = model,
+                                                         .names = names}));
 }
 
 Result<Outcome> validate_step(const Project& project, const InputNames& names,
@@ -71,8 +64,8 @@ Result<Outcome> validate_step(const Project& project, const InputNames& names,
                                                          .gains = directory / "gains.json",
                                                          .validate = {},
                                                          .output = directory / "validation.json",
-                                                         .logs = project.logs,
-                                                         .trials = project.trials,
+                                                         .logs = project.trials.logs,
+                                                         .trials = project.trials.options,
                                                          .other_columns = true,
                                                          .names = names}));
 }
@@ -81,12 +74,9 @@ Result<Outcome> validate_step(const Project& project, const InputNames& names,
 std::vector<fs::path> inputs_of(const RunCommand& command, const Project& project,
                                 const TuneConfig& tune) {
   std::vector<fs::path> inputs{command.project, project.vehicle};
-  for (const auto& path : {project.surge, project.turning, project.tune}) {
-    if (path) inputs.push_back(*path);
-  }
-  for (const auto* paths :
-       {&project.coastdowns, &project.logs, &project.scenarios, &tune.scenario_files}) {
-    inputs.insert(inputs.end(), paths->begin(), paths->end());
+  if (project.tune) inputs.push_back(*project.tune);
+  for (const auto& paths : {paths_of(project.trials), project.scenarios, tune.scenario_files}) {
+    inputs.insert(inputs.end(), paths.begin(), paths.end());
   }
   return inputs;
 }
@@ -99,13 +89,7 @@ void add_faults(const Result<T>& read, std::vector<Fault>& faults) {
 
 Result<Trials> read_trials(const Project& project) {
   AWMR_ASSIGN_OR_RETURN(Vehicle vehicle, read_vehicle(project.vehicle));
-  return load_trials({.vehicle = std::move(vehicle),
-                      .surge = project.surge,
-                      .turning = project.turning,
-                      .coastdowns = project.coastdowns,
-                      .logs = project.logs,
-                      .steady_from_logs = project.steady_from_logs,
-                      .options = project.trials});
+  return load_trials(std::move(vehicle), project.trials);
 }
 
 /// Checks inputs and outputs before anything is written, and returns the paths of all input files.
@@ -116,7 +100,7 @@ Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Pr
   std::vector<Fault> faults;
   const auto trials = read_trials(project);
   add_faults(trials, faults);
-  if (trials && !project.trials.as_is) {
+  if (trials && !project.trials.options.as_is) {
     add_faults(check_plausible(trials->vehicle, project.vehicle.string() + ":",
                                "Correct it, or give \"as_is\": true under identify in " +
                                    command.project.filename().string()),
@@ -193,14 +177,15 @@ Status steps_after_identify(const RunCommand& command, const Project& project,
   add_step(steps, "tune", std::move(tuned));
   AWMR_ASSIGN_OR_RETURN(Outcome validated, validate_step(project, names, command.output));
   add_step(steps, "validate", std::move(validated));
-  AWMR_ASSIGN_OR_RETURN(const Outcome emitted,
-                        for_project("emit", execute(EmitCommand{.model = model,
-                                                                .gains = gains,
-                                                                .output = command.output,
-                                                                .header_only = true,
-                                                                .as_is = project.trials.as_is})));
+  AWMR_ASSIGN_OR_RETURN(
+      const Outcome emitted,
+      for_project("emit", execute(EmitCommand{.model = model,
+                                              .gains = gains,
+                                              .output = command.output,
+                                              .header_only = true,
+                                              .as_is = project.trials.options.as_is})));
   add_written(steps.total, emitted.written);
-  emit_library(model, gains, command.output / kLibrary, project.trials.as_is, steps.total);
+  emit_library(model, gains, command.output / kLibrary, project.trials.options.as_is, steps.total);
   AWMR_ASSIGN_OR_RETURN(Outcome compared,
                         for_project("compare", execute(CompareCommand{
                                                    .model = model,

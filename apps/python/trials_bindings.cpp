@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "awmr/core/column_mapping.h"
-#include "awmr/core/input_file.h"
 #include "awmr/trials/load.h"
 #include "awmr/trials/log_files.h"
 #include "bindings.h"
@@ -124,18 +123,8 @@ using AnyVehicle = std::variant<VehicleOfFile, Vehicle>;
 Result<std::vector<InputFile>> inputs_of(const AnyVehicle& vehicle, const TrialFiles& files) {
   std::vector<InputFile> inputs;
   if (const auto* read = std::get_if<VehicleOfFile>(&vehicle)) inputs.push_back(read->file);
-  std::vector<std::filesystem::path> paths;
-  if (files.surge) paths.push_back(*files.surge);
-  paths.insert(paths.end(), files.coastdowns.begin(), files.coastdowns.end());
-  if (files.turning) paths.push_back(*files.turning);
-  paths.insert(paths.end(), files.logs.begin(), files.logs.end());
-  for (const std::filesystem::path& path : paths) {
-    AWMR_ASSIGN_OR_RETURN(const std::vector<std::filesystem::path> parts, files_of(path));
-    for (const std::filesystem::path& part : parts) {
-      AWMR_ASSIGN_OR_RETURN(InputFile file, input_file(part));
-      inputs.push_back(std::move(file));
-    }
-  }
+  AWMR_ASSIGN_OR_RETURN(const std::vector<InputFile> trials, input_files(paths_of(files)));
+  inputs.insert(inputs.end(), trials.begin(), trials.end());
   return inputs;
 }
 
@@ -148,16 +137,16 @@ TrialsOfFiles load(const AnyVehicle& vehicle, const Path& surge, const Path& tur
   for (const std::string& text : columns) {
     options.columns.push_back(value_or_raise(parse_column(text)));
   }
-  const TrialFiles files{.vehicle = std::visit([](const Vehicle& any) { return any; }, vehicle),
-                         .surge = surge,
+  const TrialFiles files{.surge = surge,
                          .turning = turning,
                          .coastdowns = all_of(coastdown),
                          .logs = all_of(log),
                          .steady_from_logs = steady_from_logs,
                          .options = std::move(options)};
-  TrialsOfFiles trials{value_or_raise(load_trials(files))};
+  TrialsOfFiles trials{value_or_raise(
+      load_trials(std::visit([](const Vehicle& any) { return any; }, vehicle), files))};
   trials.inputs = value_or_raise(inputs_of(vehicle, files));
-  cli::describe_reading(files.options, steady_from_logs, trials.reading);
+  cli::describe_reading(files, trials.reading);
   trials.as_is = as_is;
   return trials;
 }

@@ -102,10 +102,9 @@ TEST(TrialRecorder, ItsTablesGiveBackTheVehicle) {
   write_all(path("surge.csv"), surge);
   write_all(path("turning.csv"), turning);
   write_all(path("coastdown.csv"), coastdown);
-  const auto trials = load_trials({.vehicle = paper_vehicle(),
-                                   .surge = path("surge.csv"),
-                                   .turning = path("turning.csv"),
-                                   .coastdowns = {path("coastdown.csv")}});
+  const auto trials = load_trials(paper_vehicle(), {.surge = path("surge.csv"),
+                                                    .turning = path("turning.csv"),
+                                                    .coastdowns = {path("coastdown.csv")}});
   ASSERT_TRUE(trials) << to_text(trials.error());
   const auto found = identify(*trials, {});
   ASSERT_TRUE(found) << to_text(found.error());

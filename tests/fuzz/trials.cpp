@@ -67,12 +67,11 @@ void check_folder(const std::filesystem::path& path) {
   for (const bool as_is : {false, true}) {
     const awmr::TrialOptions options{.columns = {}, .as_is = as_is};
     for (const awmr::TrialFiles& files :
-         {awmr::TrialFiles{.vehicle = vehicle(), .surge = path, .options = options},
-          awmr::TrialFiles{.vehicle = vehicle(), .turning = path, .options = options},
-          awmr::TrialFiles{
-              .vehicle = vehicle(), .surge = path, .turning = path, .options = options},
-          awmr::TrialFiles{.vehicle = vehicle(), .coastdowns = {path}, .options = options}}) {
-      const auto trials = awmr::load_trials(files);
+         {awmr::TrialFiles{.surge = path, .options = options},
+          awmr::TrialFiles{.turning = path, .options = options},
+          awmr::TrialFiles{.surge = path, .turning = path, .options = options},
+          awmr::TrialFiles{.coastdowns = {path}, .options = options}}) {
+      const auto trials = awmr::load_trials(vehicle(), files);
       if (!is_refused(trials)) check(trials->findings);
     }
   }

@@ -18,11 +18,11 @@ std::string paper(const std::string& file) { return std::string(AWMR_SOURCE_DIR)
 
 Model identified(const IdentifyOptions& options = {}) {
   const Vehicle vehicle = read_vehicle(paper("configs/paper/vehicle.json")).value();
-  const Trials trials = load_trials({.vehicle = vehicle,
-                                     .surge = paper("datasets/paper/surge.csv"),
-                                     .turning = paper("datasets/paper/turning.csv"),
-                                     .coastdowns = {paper("datasets/paper/coastdown.csv")}})
-                            .value();
+  const Trials trials =
+      load_trials(vehicle, {.surge = paper("datasets/paper/surge.csv"),
+                            .turning = paper("datasets/paper/turning.csv"),
+                            .coastdowns = {paper("datasets/paper/coastdown.csv")}})
+          .value();
   return identify(trials, options).value().model;
 }
 

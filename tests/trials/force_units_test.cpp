@@ -19,11 +19,12 @@ std::string refusal_of(const std::string& surge, const std::string& turning,
                        std::vector<ColumnMapping> columns = {}) {
   const ScratchFile surge_file("surge.csv", surge);
   const ScratchFile turning_file("turning.csv", turning);
-  TrialFiles files{.vehicle = paper_vehicle(), .options = {.columns = std::move(columns)}};
-  files.vehicle.wheel_force = wheel_force;
+  TrialFiles files{.options = {.columns = std::move(columns)}};
+  Vehicle vehicle = paper_vehicle();
+  vehicle.wheel_force = wheel_force;
   if (!surge.empty()) files.surge = surge_file.path();
   if (!turning.empty()) files.turning = turning_file.path();
-  const auto trials = load_trials(files);
+  const auto trials = load_trials(vehicle, files);
   return trials ? "" : to_text(trials.error());
 }
 

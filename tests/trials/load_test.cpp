@@ -20,8 +20,7 @@ const std::filesystem::path kPaper = AWMR_SOURCE_DIR "/datasets/paper";
 const std::filesystem::path kSynthetic = AWMR_SOURCE_DIR "/datasets/synthetic";
 
 TrialFiles paper_files() {
-  return {.vehicle = paper_vehicle(),
-          .surge = kPaper / "surge.csv",
+  return {.surge = kPaper / "surge.csv",
           .turning = kPaper / "turning.csv",
           .coastdowns = {kPaper / "coastdown.csv"}};
 }
@@ -30,9 +29,9 @@ TrialFiles paper_files() {
 /// returns its warning with `as_is`, else an empty text.
 std::string refusal_of(const std::string& name, const std::string& text, bool as_is = false) {
   const ScratchFile file(name, text);
-  TrialFiles files{.vehicle = paper_vehicle(), .options = {.columns = {}, .as_is = as_is}};
+  TrialFiles files{.options = {.columns = {}, .as_is = as_is}};
   (name == "surge.csv" ? files.surge : files.turning) = file.path();
-  const auto trials = load_trials(files);
+  const auto trials = load_trials(paper_vehicle(), files);
   if (!trials) return to_text(trials.error());
   for (const Finding& finding : trials->findings) {
     if (finding.code == "table-contradiction") return "warned: " + finding.message;
@@ -101,7 +100,7 @@ TEST(LoadTrials, TurnsInOtherUnitsAreRefusedWithTheUnitFix) {
 
 TEST(LoadTrials, AStopInMillisecondsIsRefused) {
   const ScratchFile file("coastdown.csv", "initial_speed_mps,stop_time_s\n1.2,900\n0.8,700\n");
-  const auto trials = load_trials({.vehicle = paper_vehicle(), .coastdowns = {file.path()}});
+  const auto trials = load_trials(paper_vehicle(), {.coastdowns = {file.path()}});
   ASSERT_FALSE(trials);
   EXPECT_THAT(to_text(trials.error()),
               AllOf(HasSubstr("milliseconds"), HasSubstr("stop_time_s=\"stop_time_s\"*0.001")));
@@ -109,8 +108,8 @@ TEST(LoadTrials, AStopInMillisecondsIsRefused) {
 
 TEST(LoadTrials, AStopInMinutesIsRefused) {
   const ScratchFile file("coastdown.csv", "initial_speed_mps,stop_time_s\n1.5,0.0233\n3,0.03\n");
-  TrialFiles files{.vehicle = paper_vehicle(), .coastdowns = {file.path()}};
-  const auto trials = load_trials(files);
+  TrialFiles files{.coastdowns = {file.path()}};
+  const auto trials = load_trials(paper_vehicle(), files);
   ASSERT_FALSE(trials);
   EXPECT_THAT(to_text(trials.error()),
               AllOf(HasSubstr("minutes"), HasSubstr("stop_time_s=\"stop_time_s\"*60")));
@@ -118,52 +117,54 @@ TEST(LoadTrials, AStopInMinutesIsRefused) {
   // table is accepted.
   const ScratchFile one("coastdown.csv", "initial_speed_mps,stop_time_s\n1.5,1.4\n3,0.03\n");
   files.coastdowns = {one.path()};
-  EXPECT_TRUE(load_trials(files));
+  EXPECT_TRUE(load_trials(paper_vehicle(), files));
 }
 
 TEST(LoadTrials, ReportsCoastDownsThatAllBeginFarBelowTheFastestRun) {
   const ScratchFile surge("surge.csv", "tau_speed,speed_mps\n1,1.5\n2,5\n4,15\n");
   const ScratchFile slow("coastdown.csv", "initial_speed_mps,stop_time_s\n1.5,1.4\n3,1.8\n");
   const ScratchFile fast("coastdown.csv", "initial_speed_mps,stop_time_s\n1.5,1.4\n6,2.5\n");
-  TrialFiles files{.vehicle = paper_vehicle(), .surge = surge.path(), .coastdowns = {slow.path()}};
-  const auto reported = load_trials(files);
+  TrialFiles files{.surge = surge.path(), .coastdowns = {slow.path()}};
+  const auto reported = load_trials(paper_vehicle(), files);
   ASSERT_TRUE(reported) << to_text(reported.error());
   EXPECT_THAT(codes_of(reported->findings), Contains("coast-below-surge@3"));
   files.coastdowns = {fast.path()};
-  const auto accepted = load_trials(files);
+  const auto accepted = load_trials(paper_vehicle(), files);
   ASSERT_TRUE(accepted) << to_text(accepted.error());
   EXPECT_THAT(codes_of(accepted->findings), Not(Contains(HasSubstr("coast-below-surge"))));
 }
 
 TEST(LoadTrials, ACoastDownThatBeginsFasterThanTheSurgeRunsAllowIsRefusedWithTheLikelyUnit) {
   const ScratchFile file("coastdown.csv", "initial_speed_mps,stop_time_s\n5.98,0.573\n");
-  TrialFiles files{.vehicle = paper_vehicle(), .surge = kPaper / "surge.csv"};
-  files.vehicle.wheel_force = {0.0, 0.5};  // force of the fastest run
+  TrialFiles files{.surge = kPaper / "surge.csv"};
+  Vehicle vehicle = paper_vehicle();
+  vehicle.wheel_force = {0.0, 0.5};  // force of the fastest run
   files.coastdowns = {file.path()};
-  const auto trials = load_trials(files);
+  const auto trials = load_trials(vehicle, files);
   ASSERT_FALSE(trials);
   EXPECT_THAT(to_text(trials.error()),
               AllOf(HasSubstr("begins at 5.98 m/s"), HasSubstr("looks like km/h"),
                     HasSubstr("initial_speed_mps=\"initial_speed_mps\"*0.2777778")));
   files.options.as_is = true;
-  EXPECT_TRUE(load_trials(files));
+  EXPECT_TRUE(load_trials(vehicle, files));
   // 1.9 m/s is accepted: it exceeds the fastest run, 1.66 m/s, but by less than the margin of 30 %,
   // as in a coast-down that begins downhill.
   files.options.as_is = false;
   const ScratchFile fast("coastdown.csv", "initial_speed_mps,stop_time_s\n1.9,0.6\n");
   files.coastdowns = {fast.path()};
-  EXPECT_TRUE(load_trials(files));
+  EXPECT_TRUE(load_trials(vehicle, files));
 }
 
 TEST(LoadTrials, AVehicleWithImpossibleSizesDoesNotBoundSpeeds) {
   const ScratchFile file("surge.csv", "tau_speed,distance_m,elapsed_s\n1,10,20\n4,10,5\n");
-  TrialFiles files{.vehicle = paper_vehicle(), .surge = file.path()};
-  files.vehicle.length_m = 780.0;
-  EXPECT_TRUE(load_trials(files));
+  TrialFiles files{.surge = file.path()};
+  Vehicle vehicle = paper_vehicle();
+  vehicle.length_m = 780.0;
+  EXPECT_TRUE(load_trials(vehicle, files));
 }
 
 TEST(LoadTrials, ReadsTheGivenFilesAndKeepsFindingsInOrder) {
-  const auto trials = load_trials(paper_files());
+  const auto trials = load_trials(paper_vehicle(), paper_files());
   ASSERT_TRUE(trials) << to_text(trials.error());
   EXPECT_EQ(trials->vehicle.front_axle_m, 0.35);
   EXPECT_THAT(trials->data.surge->rows, SizeIs(10));
@@ -181,7 +182,7 @@ TEST(LoadTrials, CurvesAndStopTimesOfSeveralFilesComeTogether) {
   TrialFiles files = paper_files();
   const ScratchFile curve("curve.csv", "t_s,speed_mps\n0,1\n0.1,0.8\n0.2,0.7\n");
   files.coastdowns = {kSynthetic / "coastdown.csv", kPaper / "coastdown.csv", curve.path()};
-  const auto trials = load_trials(files);
+  const auto trials = load_trials(paper_vehicle(), files);
   ASSERT_TRUE(trials) << to_text(trials.error());
   EXPECT_TRUE(trials->data.coastdown);
   EXPECT_THAT(trials->data.curves, SizeIs(4));  // three of the synthetic file
@@ -190,17 +191,16 @@ TEST(LoadTrials, CurvesAndStopTimesOfSeveralFilesComeTogether) {
 TEST(LoadTrials, ASecondFileOfStopTimesIsRefused) {
   TrialFiles files = paper_files();
   files.coastdowns.push_back(kPaper / "coastdown.csv");
-  const auto trials = load_trials(files);
+  const auto trials = load_trials(paper_vehicle(), files);
   ASSERT_FALSE(trials);
   EXPECT_THAT(to_text(trials.error()), HasSubstr("a second file of stop times"));
 }
 
 TEST(LoadTrials, TheFaultsOfAllFilesComeTogether) {
-  const auto trials = load_trials({.vehicle = paper_vehicle(),
-                                   .surge = "/no/surge.csv",
-                                   .turning = "/no/turning.csv",
-                                   .coastdowns = {"/no/coastdown.csv"},
-                                   .logs = {"/no/log.csv"}});
+  const auto trials = load_trials(paper_vehicle(), {.surge = "/no/surge.csv",
+                                                    .turning = "/no/turning.csv",
+                                                    .coastdowns = {"/no/coastdown.csv"},
+                                                    .logs = {"/no/log.csv"}});
   ASSERT_FALSE(trials);
   std::vector<std::string> places;
   for (const Fault& fault : trials.error().faults) places.push_back(fault.place);
@@ -209,10 +209,10 @@ TEST(LoadTrials, TheFaultsOfAllFilesComeTogether) {
 }
 
 TEST(LoadTrials, NoFileAndSteadyRunsWithoutALogAreRefused) {
-  EXPECT_THAT(to_text(load_trials({.vehicle = paper_vehicle()}).error()), HasSubstr("no trials"));
+  EXPECT_THAT(to_text(load_trials(paper_vehicle(), {}).error()), HasSubstr("no trials"));
   TrialFiles files = paper_files();
   files.steady_from_logs = true;
-  EXPECT_THAT(to_text(load_trials(files).error()), HasSubstr("no log was given"));
+  EXPECT_THAT(to_text(load_trials(paper_vehicle(), files).error()), HasSubstr("no log was given"));
 }
 
 TEST(LoadTrials, SteadyRunsOfALogJoinTheRowsOfATable) {
@@ -220,7 +220,7 @@ TEST(LoadTrials, SteadyRunsOfALogJoinTheRowsOfATable) {
   TrialFiles files = paper_files();
   files.logs = {log.path()};
   files.steady_from_logs = true;
-  const auto trials = load_trials(files);
+  const auto trials = load_trials(paper_vehicle(), files);
   ASSERT_TRUE(trials) << to_text(trials.error());
   EXPECT_THAT(trials->data.logs, SizeIs(1));
   // Surge: ten rows of the table and one from the log. Turning: five and one.

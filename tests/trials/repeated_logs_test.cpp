@@ -50,9 +50,9 @@ std::string text_of(std::uint64_t drive, const Shown& shown, double noise = 0.01
 std::string refusal(const std::string& one, const std::string& other) {
   const ScratchFile first("one.csv", one);
   const ScratchFile second("two.csv", other);
-  TrialFiles files{.vehicle = paper_vehicle(), .options = {.columns = {}, .as_is = true}};
+  TrialFiles files{.options = {.columns = {}, .as_is = true}};
   files.logs = {first.path(), second.path()};
-  const auto trials = load_trials(files);
+  const auto trials = load_trials(paper_vehicle(), files);
   if (trials) return "";
   EXPECT_EQ(trials.error().faults.front().code, ErrorCode::kGivenTwice);
   return to_text(trials.error());
@@ -114,10 +114,10 @@ TEST(RepeatedLogs, ACoastDownThatIsGivenTwiceIsRefused) {
   const ScratchFile one("one.csv", curve(0.0, 1.0));
   const ScratchFile copy("copy.csv", curve(7.0, 1.0));
   const ScratchFile other("other.csv", curve(0.0, 1.2));
-  TrialFiles files{.vehicle = paper_vehicle(), .coastdowns = {one.path(), other.path()}};
-  EXPECT_TRUE(load_trials(files));
+  TrialFiles files{.coastdowns = {one.path(), other.path()}};
+  EXPECT_TRUE(load_trials(paper_vehicle(), files));
   files.coastdowns = {one.path(), copy.path()};
-  const auto trials = load_trials(files);
+  const auto trials = load_trials(paper_vehicle(), files);
   ASSERT_FALSE(trials);
   EXPECT_EQ(trials.error().faults.front().code, ErrorCode::kGivenTwice);
 }

@@ -17,10 +17,11 @@ using ::testing::HasSubstr;
 std::string refusal_of(const std::vector<std::string>& mappings,
                        const std::map<std::string, std::string>& vehicle_columns = {}) {
   const ScratchFile file("surge.csv", "tau,V\n0.5,0.9\n1,2.7\n2,5.4\n");
-  TrialFiles files{.vehicle = paper_vehicle(), .surge = file.path()};
-  files.vehicle.columns = vehicle_columns;
+  TrialFiles files{.surge = file.path()};
+  Vehicle vehicle = paper_vehicle();
+  vehicle.columns = vehicle_columns;
   for (const std::string& text : mappings) files.options.columns.push_back(*parse_column(text));
-  const auto trials = load_trials(files);
+  const auto trials = load_trials(vehicle, files);
   return trials ? "" : to_text(trials.error());
 }
 
@@ -66,15 +67,15 @@ TEST(TrialColumns, ALogTakesCommandsAndChannelsByExpression) {
   std::string text = steady_log_text();
   text.replace(0, text.find('\n'), "t_s,duty_l,duty_r,delta,v,w");
   const ScratchFile file("log.csv", text);
-  TrialFiles files{.vehicle = paper_vehicle(), .logs = {file.path()}};
+  TrialFiles files{.logs = {file.path()}};
   for (const char* mapping : {"force_left=duty_l*12/12", "force_right=duty_r", "steering_deg=delta",
                               "speed_mps=v*1", "yaw_rate_radps=-(0 - w)"}) {
     files.options.columns.push_back(*parse_column(mapping));
   }
-  const auto mapped = load_trials(files);
+  const auto mapped = load_trials(paper_vehicle(), files);
   ASSERT_TRUE(mapped) << to_text(mapped.error());
   const ScratchFile plain("log.csv", steady_log_text());
-  const auto expected = load_trials({.vehicle = paper_vehicle(), .logs = {plain.path()}});
+  const auto expected = load_trials(paper_vehicle(), {.logs = {plain.path()}});
   ASSERT_TRUE(expected);
   EXPECT_EQ(mapped->data.logs[0].force_left, expected->data.logs[0].force_left);
   EXPECT_EQ(mapped->data.logs[0][LogChannel::kYawRate]->value,

@@ -27,9 +27,9 @@ std::string refusal_of(const Vehicle& vehicle, const std::string& surge,
                        const std::string& turning) {
   const ScratchFile surge_file("surge.csv", surge);
   const ScratchFile turning_file("turning.csv", turning);
-  TrialFiles files{.vehicle = vehicle, .turning = turning_file.path()};
+  TrialFiles files{.turning = turning_file.path()};
   if (!surge.empty()) files.surge = surge_file.path();
-  const auto trials = load_trials(files);
+  const auto trials = load_trials(vehicle, files);
   return trials ? "" : to_text(trials.error());
 }
 

@@ -84,7 +84,8 @@ std::vector<std::size_t> mappings_used(const TrialData& data) {
   return used;
 }
 
-std::vector<std::filesystem::path> paths_of(const TrialFiles& files) {
+/// Returns the paths in the order in which load_trials() reads and reports the files.
+std::vector<std::filesystem::path> paths_as_read(const TrialFiles& files) {
   std::vector<std::filesystem::path> paths;
   if (files.surge) paths.push_back(*files.surge);
   if (files.turning) paths.push_back(*files.turning);
@@ -142,12 +143,21 @@ Status check(const TrialFiles& files) {
 
 }  // namespace
 
-Result<Trials> load_trials(const TrialFiles& files) {
+std::vector<std::filesystem::path> paths_of(const TrialFiles& files) {
+  std::vector<std::filesystem::path> paths;
+  if (files.surge) paths.push_back(*files.surge);
+  paths.insert(paths.end(), files.coastdowns.begin(), files.coastdowns.end());
+  if (files.turning) paths.push_back(*files.turning);
+  paths.insert(paths.end(), files.logs.begin(), files.logs.end());
+  return paths;
+}
+
+Result<Trials> load_trials(Vehicle vehicle, const TrialFiles& files) {
   AWMR_RETURN_IF_ERROR(check(files));
-  AWMR_ASSIGN_OR_RETURN(const TrialOptions options,
-                        with_vehicle_columns(files.options, files.vehicle));
-  Trials trials{.vehicle = files.vehicle, .data = {}, .findings = {}};
-  auto& [vehicle, data, findings] = trials;
+  AWMR_ASSIGN_OR_RETURN(const TrialOptions options, with_vehicle_columns(files.options, vehicle));
+  Trials trials{.vehicle = std::move(vehicle), .data = {}, .findings = {}};
+  TrialData& data = trials.data;
+  std::vector<Finding>& findings = trials.findings;
   std::vector<Fault> faults;
   read_tables(files, options, trials, faults);
   for (const std::filesystem::path& path : in_order_of_names(files.logs)) {
@@ -156,7 +166,7 @@ Result<Trials> load_trials(const TrialFiles& files) {
   }
   check_repeated_logs(data.logs, faults);
   check_repeated_curves(data.curves, faults);
-  const std::vector<std::filesystem::path> paths = paths_of(files);
+  const std::vector<std::filesystem::path> paths = paths_as_read(files);
   if (!faults.empty()) {
     const std::vector<Fault> unusable = unusable_mappings(options, paths);
     faults.insert(faults.end(), unusable.begin(), unusable.end());

@@ -1,6 +1,6 @@
 /// Reads and combines all trial files of one vehicle: the input of identify().
 ///
-///     const auto trials = load_trials({.vehicle = *robot, .surge = "surge.csv"});
+///     const auto trials = load_trials(*robot, {.surge = "surge.csv"});
 #pragma once
 
 #include <filesystem>
@@ -14,9 +14,8 @@
 
 namespace awmr {
 
-/// Trial files to read.
+/// Trial files of one vehicle.
 struct TrialFiles {
-  Vehicle vehicle;
   /// Table of runs at constant thrust with straight wheels, from which the surge resistance (a1, b1
   /// of a power law) is identified.
   std::optional<std::filesystem::path> surge = {};
@@ -35,11 +34,15 @@ struct TrialFiles {
   TrialOptions options = {};
 };
 
-/// Reads and combines the files. Reports the errors of all files at once. Errors (input): no file;
+/// Returns the paths of the files in the order in which model.json lists them: surge, coast-downs,
+/// turning, logs.
+std::vector<std::filesystem::path> paths_of(const TrialFiles& files);
+
+/// Reads and combines the files of `vehicle`. Reports the errors of all files at once. Errors (input): no file;
 /// the errors of read_surge(), read_turning(), read_coastdown() and read_logs(); tables and logs
 /// that contradict themselves or the vehicle (table_consistency.h, log_consistency.h); the same log
 /// given twice; a second file of stop times; steady_from_logs without a log; an unknown or unused
 /// column mapping.
-Result<Trials> load_trials(const TrialFiles& files);
+Result<Trials> load_trials(Vehicle vehicle, const TrialFiles& files);
 
 }  // namespace awmr

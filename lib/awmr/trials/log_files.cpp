@@ -1,6 +1,9 @@
 #include "awmr/trials/log_files.h"
 
+#include <utility>
+
 #include "awmr/core/file.h"
+#include "awmr/core/input_file.h"
 
 namespace awmr {
 namespace {
@@ -31,6 +34,20 @@ Result<std::vector<fs::path>> files_of(const fs::path& path) {
   return input_error(ErrorCode::kMissing, path.string(),
                      "this directory has neither a bag (.db3) nor tables (.csv, one topic each); "
                      "give a directory with one of them, or a file");
+}
+
+Result<std::vector<InputFile>> input_files(const std::vector<fs::path>& paths,
+                                           const InputNames& names) {
+  std::vector<InputFile> files;
+  for (const fs::path& path : paths) {
+    AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> parts, files_of(path));
+    for (const fs::path& part : parts) {
+      AWMR_ASSIGN_OR_RETURN(InputFile file, input_file(part));
+      if (const auto name = names.find(part); name != names.end()) file.name = name->second;
+      files.push_back(std::move(file));
+    }
+  }
+  return files;
 }
 
 }  // namespace awmr
