@@ -17,10 +17,6 @@ Result<IdentifyCommand> command_of(const IdentifyWords& words) {
   for (const std::string& name : words.families) {
     AWMR_RETURN_IF_ERROR(add_family(name, command.identify));
   }
-  if (!words.method.empty()) command.identify.method = value_in(kMethodNames, words.method);
-  if (!words.noise.empty()) command.identify.noise = value_in(kErrorModelNames, words.noise);
-  command.identify.loss = *value_in(kLossNames, words.loss);
-  command.trials.options.preference = *value_in(kPreferenceNames, words.prefer);
   command.identify.keeps_outliers = command.trials.options.as_is;
   return command;
 }
@@ -37,14 +33,13 @@ void add_table_files(CLI::App& sub, IdentifyCommand& command) {
 }
 
 void add_fit_options(CLI::App& sub, IdentifyWords& words) {
-  sub.add_option("--method", words.method,
-                 "Estimator of the model's parameters: log-linear (default for tables), nonlinear, "
-                 "trajectory (default with --log)")
-      ->check(one_of(names_in(kMethodNames)));
-  sub.add_option("--noise", words.noise,
-                 "Quantity that has the measurement error in the nonlinear fit: force, speed or "
-                 "time (default with --method nonlinear: time if every run was timed, else speed)")
-      ->check(one_of(names_in(kErrorModelNames)));
+  IdentifyOptions& options = words.command.identify;
+  add_choice(sub, "--method", options.method, kMethodNames,
+             "Estimator of the model's parameters: log-linear (default for tables), nonlinear, "
+             "trajectory (default with --log)");
+  add_choice(sub, "--noise", options.noise, kErrorModelNames,
+             "Quantity that has the measurement error in the nonlinear fit: force, speed or "
+             "time (default with --method nonlinear: time if every run was timed, else speed)");
   sub.add_option(
          "--family", words.families,
          "Family (formula) of the resistance laws: power (default; a fit of logs uses another "
@@ -52,11 +47,10 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
          "coulomb-power, dead-zone, or auto (best fit for its number of parameters, by AICc); "
          "surge=NAME or yaw=NAME selects the family of one law")
       ->delimiter(',');
-  sub.add_option("--loss", words.loss,
-                 "Loss function of the residuals: squares (default) or, "
-                 "with less weight for large errors, huber, cauchy or tukey")
-      ->check(one_of(names_in(kLossNames)));
-  sub.add_flag("--joint", words.command.identify.joint,
+  add_choice(sub, "--loss", options.loss, kLossNames,
+             "Loss function of the residuals: squares (default) or, "
+             "with less weight for large errors, huber, cauchy or tukey");
+  sub.add_flag("--joint", options.joint,
                "Fit the surge resistance (a1, b1) and m' (mass divided by F_max) together to the "
                "surge runs and the coast-down curves");
   sub.add_option("--fit", words.requested,
@@ -107,11 +101,10 @@ void add_reading_options(CLI::App& sub, IdentifyWords& words) {
       "--as-is", words.command.trials.options.as_is,
       "Accept trials that appear to have wrong units or signs, or left and right exchanged, "
       "and keep gross outliers");
-  sub.add_option("--prefer", words.prefer,
-                 "Value to use if a row gives its speed or yaw rate twice and the two disagree: "
-                 "printed (the number in the row, default) or timed (computed from the distance or "
-                 "turns and the elapsed time)")
-      ->check(one_of(names_in(kPreferenceNames)));
+  add_choice(sub, "--prefer", words.command.trials.options.preference, kPreferenceNames,
+             "Value to use if a row gives its speed or yaw rate twice and the two disagree: "
+             "printed (the number in the row, default) or timed (computed from the distance or "
+             "turns and the elapsed time)");
   sub.add_option("--column", words.columns.columns, kColumnHelp);
   add_file(sub, "--columns-file", words.columns.file, kColumnsFileHelp);
 }

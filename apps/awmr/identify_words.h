@@ -16,10 +16,6 @@ struct IdentifyWords {
   ColumnWords columns;
   std::vector<std::string> requested;
   std::vector<std::string> families;
-  std::string method;
-  std::string noise;
-  std::string loss = "squares";
-  std::string prefer = "printed";
   std::vector<std::string> excluded;
 };
 

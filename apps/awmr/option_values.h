@@ -34,9 +34,10 @@ inline CLI::Validator one_of(std::vector<std::string> names) {
 }
 
 /// Adds an option that sets `value` to the entry of `names` with the given name. Any other name is
-/// a command-line error. The help lists the names. `value` and `names` must outlive `command`.
-template <class Value, std::size_t N>
-CLI::Option* add_choice(CLI::App& command, const std::string& option, Value& value,
+/// a command-line error. The help lists the names. `value` (a Value or an optional one) and `names`
+/// must outlive `command`.
+template <class Target, class Value, std::size_t N>
+CLI::Option* add_choice(CLI::App& command, const std::string& option, Target& value,
                         const NameTable<Value, N>& names, const std::string& meaning) {
   const auto set = [&value, &names](const std::string& name) { value = *value_in(names, name); };
   return command.add_option_function<std::string>(option, set, meaning)

@@ -68,15 +68,10 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
   add_inputs(command, options);
   add_link(command, options);
   add_emit_options(command, options.emit);
-  command
-      .add_option_function<std::string>(
-          "--optimize",
-          [&options](const std::string& name) {
-            options.optimize = *value_in(kOptimizeNames, name);
-          },
-          "Compile the firmware for few clock cycles (speed) or for little flash (size) [size for "
-          "a timed path, obstacles, or two optional parts or more; else speed]")
-      ->check(one_of(names_in(kOptimizeNames)));
+  add_choice(
+      command, "--optimize", options.optimize, kOptimizeNames,
+      "Compile the firmware for few clock cycles (speed) or for little flash (size) [size for "
+      "a timed path, obstacles, or two optional parts or more; else speed]");
   add_bounds(command, options);
   command
       .add_option("--hostile-steps", options.hostile_steps,

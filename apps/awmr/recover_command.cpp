@@ -64,10 +64,6 @@ Status check_output_of(const RecoverCommand& command) {
 /// The others stay texts, which command_of() parses.
 struct RecoverWords {
   RecoverCommand command;
-  std::string plan = "tables";
-  std::string method;
-  std::string noise;
-  std::string error;
   std::optional<std::string> shard;
   std::vector<std::string> requested;
 };
@@ -76,13 +72,8 @@ struct RecoverWords {
 /// part (shard).
 Result<RecoverCommand> command_of(const RecoverWords& words) {
   RecoverCommand command = words.command;
-  RecoverOptions& options = command.recover;
-  options.plan = *value_in(kPlans, words.plan);
-  if (!words.method.empty()) options.identify.method = value_in(kMethodNames, words.method);
-  if (!words.noise.empty()) options.identify.noise = value_in(kErrorModelNames, words.noise);
-  if (!words.error.empty()) options.error = value_in(kRecoverErrorNames, words.error);
   for (const std::string& name : words.requested) {
-    AWMR_RETURN_IF_ERROR(add_requested(name, options.identify));
+    AWMR_RETURN_IF_ERROR(add_requested(name, command.recover.identify));
   }
   AWMR_ASSIGN_OR_RETURN(command.shard, shard_of(words.shard));
   return command;
@@ -100,22 +91,20 @@ void add_runs(CLI::App& sub, RecoverCommand& command) {
 }
 
 void add_estimator(CLI::App& sub, RecoverWords& words) {
-  sub.add_option(
-         "--plan", words.plan,
-         "Trials to simulate. tables (default): tables like those that the model was fitted to; "
-         "curve: the same tables with a coast-down curve in place of the stop times; log: "
-         "only a driving log")
-      ->check(one_of(names_in(kPlans)));
-  sub.add_option("--method", words.method, "Estimator under test, as in identify")
-      ->check(one_of(names_in(kMethodNames)));
-  sub.add_option("--noise", words.noise, "Noise model of the estimator, as in identify")
-      ->check(one_of(names_in(kErrorModelNames)));
-  sub.add_option("--error", words.error,
-                 "Quantity to which the error of table rows is added: log-force, force, speed or "
-                 "time (default: as the estimator assumes)")
-      ->check(one_of(names_in(kRecoverErrorNames)));
+  RecoverOptions& options = words.command.recover;
+  add_choice(sub, "--plan", options.plan, kPlans,
+             "Trials to simulate. tables (default): tables like those that the model was fitted to; "
+             "curve: the same tables with a coast-down curve in place of the stop times; log: "
+             "only a driving log");
+  add_choice(sub, "--method", options.identify.method, kMethodNames,
+             "Estimator under test, as in identify");
+  add_choice(sub, "--noise", options.identify.noise, kErrorModelNames,
+             "Noise model of the estimator, as in identify");
+  add_choice(sub, "--error", options.error, kRecoverErrorNames,
+             "Quantity to which the error of table rows is added: log-force, force, speed or "
+             "time (default: as the estimator assumes)");
   sub.add_option("--fit", words.requested, "Parameters to fit, as in identify")->delimiter(',');
-  sub.add_flag("--joint", words.command.recover.identify.joint,
+  sub.add_flag("--joint", options.identify.joint,
                "Fit surge and coast-down together, as in identify");
 }
 

@@ -153,16 +153,11 @@ inline std::vector<std::pair<std::string, std::string>> options_of(
 using AllocationChoice = std::optional<AllocationForm>;
 
 inline void add_allocation(CLI::App& command, AllocationChoice& choice) {
-  const auto set = [&choice](const std::string& name) {
-    choice = value_in(kAllocationFormNames, name);
-  };
-  command
-      .add_option_function<std::string>(
-          "--allocation", set,
-          "How the controller computes wheel forces and steering angle from thrust and yaw moment: "
-          "exactly, or by the paper's equations for small angles (default: as the scenario or "
-          "vehicle selects, else exact)")
-      ->check(one_of(names_in(kAllocationFormNames)));
+  add_choice(
+      command, "--allocation", choice, kAllocationFormNames,
+      "How the controller computes wheel forces and steering angle from thrust and yaw moment: "
+      "exactly, or by the paper's equations for small angles (default: as the scenario or "
+      "vehicle selects, else exact)");
 }
 
 /// Returns the option and its value, for the list of options in an output file; empty if the option

@@ -172,11 +172,8 @@ CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
       sub.add_flag("--one-set", command.one_set,
                    "Tune one set of gains for all modes (default: a set for each mode if gains for "
                    "one mode alone settle much faster)");
-  sub.add_option_function<std::string>(
-         "--mode",
-         [&command](const std::string& name) { command.mode = value_in(kYawModeNames, name); },
-         "Tune for this mode only (default: for all modes)")
-      ->check(one_of(names_in(kYawModeNames)))
+  add_choice(sub, "--mode", command.mode, kYawModeNames,
+             "Tune for this mode only (default: for all modes)")
       ->excludes(one_set);
   return nominal;
 }
