@@ -24,6 +24,10 @@
 namespace awmr::cli {
 namespace {
 
+struct CheckCommand {
+  fs::path project;
+};
+
 /// Problems found in a project, in the order in which the user should solve them.
 struct Check {
   std::vector<Finding> missing;      ///< values and trials not provided yet
@@ -261,8 +265,6 @@ std::string summary_of(const fs::path& project, const Check& check) {
                      check.implausible.size());
 }
 
-}  // namespace
-
 Result<Outcome> execute(const CheckCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const bool is_folder, directory_exists(command.project));
   const fs::path path = is_folder ? command.project / "project.json" : command.project;
@@ -277,6 +279,8 @@ Result<Outcome> execute(const CheckCommand& command) {
   outcome.refused = !check->missing.empty() || !check->implausible.empty();
   return for_project("identify", std::move(outcome));
 }
+
+}  // namespace
 
 void add_check(CLI::App& app, Session& session) {
   auto command = std::make_shared<CheckCommand>();

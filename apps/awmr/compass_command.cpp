@@ -15,6 +15,13 @@
 namespace awmr::cli {
 namespace {
 
+struct CompassCommand {
+  fs::path file;
+  double declination_deg = 0.0;
+  ColumnWords columns = {};
+  fs::path output;
+};
+
 std::string line_of(const char* name, const WithInterval& value, const char* meaning) {
   return fmt::format("  {:<12} {:>12.6g}  [{:.6g}, {:.6g}]  {}\n", name, value.value, value.ci95.lo,
                      value.ci95.hi, meaning);
@@ -54,8 +61,6 @@ std::string document_of(const CompassCalibration& c) {
   return awmr::to_text(json);
 }
 
-}  // namespace
-
 Result<Outcome> execute(const CompassCommand& command) {
   AWMR_RETURN_IF_ERROR(check_output(command.output, {{command.file}}));
   AWMR_ASSIGN_OR_RETURN(const auto columns, column_mappings(command.columns));
@@ -72,6 +77,8 @@ Result<Outcome> execute(const CompassCommand& command) {
   put_findings_into_document(outcome);
   return outcome;
 }
+
+}  // namespace
 
 void add_compass(CLI::App& app, Session& session) {
   auto command = std::make_shared<CompassCommand>();

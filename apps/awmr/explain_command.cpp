@@ -15,6 +15,10 @@
 namespace awmr::cli {
 namespace {
 
+struct ExplainCommand {
+  std::optional<std::string> code;
+};
+
 /// Explanation of the code of a finding or an error, from a row of FINDINGS.md.
 struct Explanation {
   std::string code;
@@ -130,8 +134,6 @@ Json to_json(const std::vector<Explanation>& all) {
   return json;
 }
 
-}  // namespace
-
 Result<Outcome> execute(const ExplainCommand& command) {
   std::vector<Explanation> all = explanations();
   if (!command.code) {
@@ -145,6 +147,8 @@ Result<Outcome> execute(const ExplainCommand& command) {
   for (const Explanation& one : all) outcome.summary += text_of(one);
   return outcome;
 }
+
+}  // namespace
 
 void add_explain(CLI::App& app, Session& session) {
   auto command = std::make_shared<ExplainCommand>();

@@ -13,6 +13,14 @@
 #include "option_values.h"
 
 namespace awmr::cli {
+namespace {
+
+struct ExportCommand {
+  fs::path model;
+  std::optional<fs::path> gains;
+  ExportFormat format = ExportFormat::kRos2;
+  fs::path output;
+};
 
 Result<Outcome> execute(const ExportCommand& command) {
   std::vector<fs::path> paths{command.model};
@@ -36,6 +44,8 @@ Result<Outcome> execute(const ExportCommand& command) {
                  .findings = std::move(findings),
                  .written = {command.output}};
 }
+
+}  // namespace
 
 void add_export(CLI::App& app, Session& session) {
   auto command = std::make_shared<ExportCommand>();

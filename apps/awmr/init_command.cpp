@@ -15,6 +15,12 @@
 namespace awmr::cli {
 namespace {
 
+struct InitCommand {
+  fs::path directory;
+  bool example = false;
+  Drive drive = Drive::kFourWheel;
+};
+
 /// True if a template line belongs into a project with this drive. A line that begins with
 /// "@four_wheel " is for that drive only, a line with "@steered " for drives with steering.
 bool is_for(std::string_view mark, Drive drive) {
@@ -116,8 +122,6 @@ std::string summary_of(const InitCommand& command, const std::vector<OutputFile>
              (command.directory / "README.md").string(), command.directory.string());
 }
 
-}  // namespace
-
 Result<Outcome> execute(const InitCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<OutputFile> files, files_to_write(command));
   AWMR_RETURN_IF_ERROR(write_all(files));
@@ -125,6 +129,8 @@ Result<Outcome> execute(const InitCommand& command) {
   for (const OutputFile& file : files) outcome.written.push_back(file.path);
   return outcome;
 }
+
+}  // namespace
 
 void add_init(CLI::App& app, Session& session) {
   auto command = std::make_shared<InitCommand>();

@@ -217,8 +217,6 @@ void add_updates_and_end(CLI::App& sub, LiveCommand& live) {
       ->check(within(0.1, 1e6));
 }
 
-}  // namespace
-
 Result<Outcome> execute(const LiveCommand& requested) {
   AWMR_RETURN_IF_ERROR(check(requested));
   LiveCommand command = requested;
@@ -249,6 +247,8 @@ Result<Outcome> execute(const LiveCommand& requested) {
                          record.string()));
   return finished(command, followed);
 }
+
+}  // namespace
 
 void add_live(CLI::App& app, Session& session) {
   struct Words {

@@ -13,6 +13,11 @@
 namespace awmr::cli {
 namespace {
 
+struct LogCommand {
+  fs::path file;
+  fs::path output;
+};
+
 std::string summary_of(const AwlLog& log, const LogCommand& command) {
   return fmt::format("{}: {} rows in {} run(s), from {:.6g} s to {:.6g} s\n",
                      command.output.string(), log.rows(), log.runs, log.columns[0].front(),
@@ -38,8 +43,6 @@ std::string origin_of(const AwlLog& log, const InputFile& input) {
                      version(), input.name, input.sha256, log.parameters_sha256);
 }
 
-}  // namespace
-
 Result<Outcome> execute(const LogCommand& command) {
   AWMR_RETURN_IF_ERROR(check_output(command.output, {{command.file}}));
   AWMR_ASSIGN_OR_RETURN(const AwlLog log, read_awl_file(command.file));
@@ -52,6 +55,8 @@ Result<Outcome> execute(const LogCommand& command) {
   put_findings_into_document(outcome);
   return outcome;
 }
+
+}  // namespace
 
 void add_log(CLI::App& app, Session& session) {
   auto command = std::make_shared<LogCommand>();

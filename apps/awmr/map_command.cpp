@@ -22,6 +22,13 @@
 namespace awmr::cli {
 namespace {
 
+struct MapCommand {
+  fs::path file;
+  std::optional<fs::path> vehicle;
+  TrialKind trial = TrialKind::kLog;
+  std::optional<fs::path> output;
+};
+
 /// Alternative sets of columns for the same quantity of a trial; one complete set suffices.
 using Ways = std::vector<std::vector<const char*>>;
 std::vector<Ways> needs_of(TrialKind kind) {
@@ -118,8 +125,6 @@ std::string summary_of(const MapCommand& command, const std::vector<ColumnGuess>
   return text;
 }
 
-}  // namespace
-
 Result<Outcome> execute(const MapCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> files, files_of(command.file));
   if (command.output) AWMR_RETURN_IF_ERROR(check_output(*command.output, files));
@@ -145,6 +150,8 @@ Result<Outcome> execute(const MapCommand& command) {
   outcome.written = {*command.output};
   return outcome;
 }
+
+}  // namespace
 
 void add_map(CLI::App& app, Session& session) {
   auto command = std::make_shared<MapCommand>();

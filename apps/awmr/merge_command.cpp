@@ -14,6 +14,11 @@
 namespace awmr::cli {
 namespace {
 
+struct MergeCommand {
+  std::vector<fs::path> parts;
+  fs::path output;
+};
+
 /// Checks the output files, so that an error is found before the work begins. Errors (input): an
 /// output cannot be written, or is a file of one of the parts.
 Status check_outputs_of(const MergeCommand& command, const ShardKind& kind,
@@ -57,12 +62,12 @@ Result<Outcome> merge_recovery(const MergeCommand& command) {
   return outcome;
 }
 
-}  // namespace
-
 Result<Outcome> execute(const MergeCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const std::string schema, schema_of_part(command.parts.front()));
   return schema == recover_shards().schema ? merge_recovery(command) : merge_comparison(command);
 }
+
+}  // namespace
 
 void add_merge(CLI::App& app, Session& session) {
   auto command = std::make_shared<MergeCommand>();

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "awmr/core/file.h"
+#include "awmr/identify/planning/recover.h"
 #include "awmr/identify/planning/recover_shard.h"
 #include "awmr/model/model_file.h"
 #include "commands.h"
@@ -15,6 +16,13 @@
 
 namespace awmr::cli {
 namespace {
+
+struct RecoverCommand {
+  fs::path model;
+  RecoverOptions recover;
+  ShardChoice shard = {};
+  std::optional<fs::path> output = {};
+};
 
 constexpr NameTable<RecoverPlan, 3> kPlans{
     {{"tables", RecoverPlan::kTables}, {"curve", RecoverPlan::kCurve}, {"log", RecoverPlan::kLog}}};
@@ -121,8 +129,6 @@ void add_simulated_trials(CLI::App& sub, RecoverOptions& options) {
       ->check(within(1.0, 1000.0));
 }
 
-}  // namespace
-
 Result<Outcome> execute(const RecoverCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
   AWMR_ASSIGN_OR_RETURN(const std::vector<InputFile> inputs, input_files({command.model}));
@@ -138,6 +144,8 @@ Result<Outcome> execute(const RecoverCommand& command) {
                       recover_part_text(part, shard, provenance),
                       fmt::format("{} runs", part.runs.size()));
 }
+
+}  // namespace
 
 void add_recover(CLI::App& app, Session& session) {
   auto words = std::make_shared<RecoverWords>();

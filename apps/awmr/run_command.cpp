@@ -22,6 +22,12 @@
 namespace awmr::cli {
 namespace {
 
+struct RunCommand {
+  fs::path project;
+  fs::path output;
+  bool figures = false;
+};
+
 /// Results of the steps of `run`: their combined outcome, and the JSON document of each step. The
 /// documents are stored under the names of their files ("model").
 struct Steps {
@@ -202,8 +208,6 @@ Status steps_after_identify(const RunCommand& command, const Project& project,
   return report_step(command, steps.total);
 }
 
-}  // namespace
-
 Result<Outcome> execute(const RunCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Project project, read_project(command.project));
   const auto checked = checked_inputs(command, project);
@@ -237,6 +241,8 @@ Result<Outcome> execute(const RunCommand& command) {
   put_findings_into_document(total);
   return total;
 }
+
+}  // namespace
 
 void add_run(CLI::App& app, Session& session) {
   auto command = std::make_shared<RunCommand>();

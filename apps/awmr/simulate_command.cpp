@@ -26,6 +26,17 @@
 namespace awmr::cli {
 namespace {
 
+struct SimulateCommand {
+  fs::path model;
+  std::optional<fs::path> gains;
+  fs::path scenario;
+  YawMode mode = YawMode::kCombined;
+  fs::path output;
+  AllocationChoice allocation = {};
+  HeadingRateChoice heading_rate_limit = {};
+  PlantChoice plant = {};
+};
+
 /// Describes whether the run reached the end of its path; empty for guidance without end.
 std::string end_of(const Run& run, const Scenario& scenario) {
   if (run.end == RunEnd::kNoPassage) {
@@ -184,8 +195,6 @@ Status write_run(const fs::path& output, const std::string& csv, Outcome& outcom
   return {};
 }
 
-}  // namespace
-
 Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(Model model, read_model(command.model));
   AWMR_ASSIGN_OR_RETURN(Scenario scenario, read_scenario(command.scenario));
@@ -215,6 +224,8 @@ Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_RETURN_IF_ERROR(write_run(command.output, csv, outcome));
   return outcome;
 }
+
+}  // namespace
 
 void add_simulate(CLI::App& app, Session& session) {
   auto command = std::make_shared<SimulateCommand>();

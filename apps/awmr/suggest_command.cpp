@@ -19,6 +19,16 @@
 namespace awmr::cli {
 namespace {
 
+struct SuggestCommand {
+  fs::path model;
+  std::string parameter;
+  std::optional<fs::path> gains;
+  std::optional<fs::path> scenario;
+  YawMode mode = YawMode::kCombined;
+  int repeats = 3;
+  std::optional<fs::path> output;
+};
+
 /// Largest number of trials on the printed sheet. The output file contains all trials.
 constexpr std::size_t kSheetTrials = 8;
 
@@ -92,8 +102,6 @@ Result<std::string> document_of(const SuggestCommand& command, const Suggestion&
   return suggestion_text(suggestion, provenance);
 }
 
-}  // namespace
-
 Result<Outcome> execute(const SuggestCommand& command) {
   if (command.output) {
     AWMR_RETURN_IF_ERROR(check_output(*command.output, inputs_of(command)));
@@ -109,6 +117,8 @@ Result<Outcome> execute(const SuggestCommand& command) {
   AWMR_RETURN_IF_ERROR(write_document(command.output, outcome));
   return outcome;
 }
+
+}  // namespace
 
 void add_suggest(CLI::App& app, Session& session) {
   auto held = std::make_shared<SuggestCommand>();
