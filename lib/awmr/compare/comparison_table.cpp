@@ -27,12 +27,6 @@ std::string place_of(const Contender& contender, const std::vector<RankedMode>& 
   return "-";
 }
 
-std::string wrapped(const std::string& text) {
-  constexpr std::size_t kIndent = 2;
-  constexpr std::size_t kWidth = 100;
-  return std::string(kIndent, ' ') + awmr::wrapped(text, kIndent, kWidth) + '\n';
-}
-
 /// Notes on metrics that some runs lack: "  settle: mean of some runs: steering 3 of 8".
 std::string partial_means(const ScenarioRows& scenario) {
   std::string text;
@@ -119,8 +113,9 @@ std::string overall_of(const std::vector<EvaluatedScenario>& scenarios) {
   const std::vector<std::size_t> first = first_with_same_runs(scenarios);
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     if (first[i] == i) continue;
-    text += wrapped(fmt::format("counted once: '{}' has the same runs as '{}'",
-                                scenarios[i].rows.scenario, scenarios[first[i]].rows.scenario));
+    text += paragraph(fmt::format("counted once: '{}' has the same runs as '{}'",
+                                  scenarios[i].rows.scenario, scenarios[first[i]].rows.scenario),
+                      2);
   }
   return text;
 }
@@ -138,7 +133,7 @@ std::string comparison_table(const Comparison& comparison, const CompareOptions&
         "{}: {}\n", scenario.rows.scenario,
         samples == 0 ? "the model's own values" : fmt::format("mean of {} sample(s)", samples));
     text += table_of(scenario.rows, scenario.ranking);
-    text += wrapped(scenario.verdict);
+    text += paragraph(scenario.verdict, 2);
   }
   text += overall_of(ranked_of(scenarios));
   if (comparison.break_even) text += break_even_table(*comparison.break_even);

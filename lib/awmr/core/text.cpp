@@ -100,6 +100,10 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
   return result;
 }
 
+std::string paragraph(const std::string& text, std::size_t indent) {
+  return std::string(indent, ' ') + wrapped(text, indent, 100) + '\n';
+}
+
 std::string shortened(std::string_view text, std::size_t longest) {
   if (text.size() <= longest) return std::string(text);
   const std::size_t end_bytes = longest / 3;

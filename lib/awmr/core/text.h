@@ -32,6 +32,9 @@ std::string printable_lines(std::string_view text);
 /// first by `indent` spaces. The first line is shorter by `indent`, for a text that the caller puts
 /// before it.
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width);
+/// The text as a paragraph of a terminal: wrapped to lines of 100 bytes, all indented by `indent`
+/// spaces, and a line break.
+std::string paragraph(const std::string& text, std::size_t indent);
 
 /// Default length limit of shortened(), bytes.
 inline constexpr std::size_t kLongestShown = 1000;
