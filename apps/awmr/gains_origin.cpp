@@ -14,15 +14,10 @@ namespace awmr::cli {
 
 namespace {
 
-/// Returns the mode that the gains were tuned for; empty if they were tuned for all modes. Errors
-/// (input): the gains file has an unknown mode.
-Result<std::optional<YawMode>> tuned_mode(const Json& json, const std::filesystem::path& gains) {
-  std::vector<Fault> faults;
-  JsonObject root(json, gains.string(), "", faults);
-  std::optional<YawMode> mode;
-  if (root.has("mode")) mode = root.choice("mode", kYawModeNames);
-  if (!faults.empty()) return input_errors(std::move(faults));
-  return mode;
+/// Returns the mode that the gains were tuned for; empty if they were tuned for all modes.
+std::optional<YawMode> tuned_mode(JsonObject& gains) {
+  if (!gains.has("mode")) return std::nullopt;
+  return gains.choice("mode", kYawModeNames);
 }
 
 Finding of_another_mode(const std::filesystem::path& gains, YawMode tuned,
@@ -41,7 +36,8 @@ Status note_other_model(const std::filesystem::path& gains, const std::filesyste
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(gains, ignored)) return {};
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(gains));
-  AWMR_ASSIGN_OR_RETURN(const std::optional<YawMode> tuned, tuned_mode(json, gains));
+  AWMR_ASSIGN_OR_RETURN(const std::optional<YawMode> tuned,
+                        read_json_object(json, gains.string(), tuned_mode));
   if (tuned && mode != tuned) findings.push_back(of_another_mode(gains, *tuned, mode));
   AWMR_ASSIGN_OR_RETURN(const InputFile own, input_file(model));
   if (is_made_from(json, own.sha256).value_or(true)) return {};

@@ -43,15 +43,6 @@ std::vector<ColumnMapping> columns_from_json(JsonObject& json) {
   return mappings;
 }
 
-Result<std::vector<ColumnMapping>> columns_of_file(const std::filesystem::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
-  std::vector<Fault> faults;
-  JsonObject json(document, path.string(), "", faults);
-  std::vector<ColumnMapping> mappings = columns_from_json(json);
-  if (!faults.empty()) return input_errors(std::move(faults));
-  return mappings;
-}
-
 }  // namespace
 
 std::string columns_schema() {
@@ -70,7 +61,8 @@ Result<std::vector<ColumnMapping>> column_mappings(const ColumnWords& words) {
     mappings.push_back(std::move(mapping));
   }
   if (!words.file) return mappings;
-  AWMR_ASSIGN_OR_RETURN(std::vector<ColumnMapping> more, columns_of_file(*words.file));
+  AWMR_ASSIGN_OR_RETURN(std::vector<ColumnMapping> more,
+                        read_json_object(*words.file, columns_from_json));
   for (ColumnMapping& mapping : more) {
     const bool given = std::any_of(mappings.begin(), mappings.end(), [&](const auto& other) {
       return other.name == mapping.name && other.file.empty();

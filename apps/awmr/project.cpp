@@ -18,16 +18,15 @@ fs::path resolved(const fs::path& project, const std::string& name) {
 }
 
 /// Reads the file names in a project file, and resolves them relative to the directory of that
-/// file. `faults`: list to which the faults of the whole project file are added.
+/// file.
 class FileNames {
  public:
-  FileNames(const fs::path& project, const std::vector<Fault>& faults)
-      : project_(project), faults_(faults) {}
+  explicit FileNames(const fs::path& project) : project_(project) {}
 
   fs::path at(JsonObject& json, const char* key) const {
-    const std::size_t before = faults_.size();
+    const std::size_t before = json.faults().size();
     const std::string name = json.string(key);
-    if (name.empty() && faults_.size() == before) {
+    if (name.empty() && json.faults().size() == before) {
       json.fault(ErrorCode::kBadName, key, "is empty: give the path of a file");
     }
     return resolved(project_, name);
@@ -53,7 +52,6 @@ class FileNames {
 
  private:
   const fs::path& project_;
-  const std::vector<Fault>& faults_;
 };
 
 /// Reads the column mappings for one file. If the name `file` is empty, they apply to all files.
@@ -154,14 +152,13 @@ constexpr std::string_view kProjectSchema = "awmr.project/1";
 
 /// Converts the JSON content of a project file. `path`: the project file; file names in it are
 /// relative to its directory.
-Project project_from_json(JsonObject& json, const fs::path& path,
-                          const std::vector<Fault>& faults) {
+Project project_from_json(JsonObject& json, const fs::path& path) {
   Project project;
   json.schema(kProjectSchema);
-  const FileNames files(path, faults);
+  const FileNames files(path);
   project.vehicle = files.at(json, "vehicle");
   read_trials(json.object("trials"), files, project);
-  if (faults.empty() && paths_of(project.trials).empty()) {
+  if (json.faults().empty() && paths_of(project.trials).empty()) {
     json.fault(ErrorCode::kMissing, "trials",
                "no trials: give at least one of surge, coastdown, turning, logs");
   }
@@ -176,17 +173,12 @@ Project project_from_json(JsonObject& json, const fs::path& path,
 }  // namespace
 
 Result<Project> read_project(const fs::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const auto document, read_json_file(path));
-  std::vector<Fault> faults;
-  JsonObject json(document, path.string(), "", faults);
-  Project project = project_from_json(json, path, faults);
-  if (!faults.empty()) return input_errors(std::move(faults));
-  return project;
+  return read_json_object(path, [&](JsonObject& json) { return project_from_json(json, path); });
 }
 
 std::string project_schema() {
   return json_schema_text(kProjectSchema, "A project: the inputs of `awmr run`",
-                          [](JsonObject& json) { project_from_json(json, "", {}); });
+                          [](JsonObject& json) { project_from_json(json, ""); });
 }
 
 }  // namespace awmr::cli

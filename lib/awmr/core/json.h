@@ -12,6 +12,8 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "awmr/core/interval.h"
@@ -141,6 +143,8 @@ class JsonObject {
   /// Adds a fault for each key of the object that was not read. Only the first of these faults
   /// lists the known keys.
   void reject_unknown_keys();
+  /// All faults found so far in the file.
+  const std::vector<Fault>& faults() const { return *faults_; }
   const std::string& file() const { return file_; }
   /// JSON pointer of a key of this object.
   std::string pointer(std::string_view key) const;
@@ -154,6 +158,26 @@ class JsonObject {
   JsonShape* shape_ = nullptr;  ///< null: reads a document
   std::set<std::string, std::less<>> known_;
 };
+
+/// Returns the result of `read(JsonObject&)`, applied to a document. `file`: its name in errors.
+/// Errors (input): all faults that `read` finds.
+template <class Read>
+auto read_json_object(const Json& document, const std::string& file, const Read& read)
+    -> Result<std::invoke_result_t<const Read&, JsonObject&>> {
+  std::vector<Fault> faults;
+  JsonObject json(document, file, "", faults);
+  auto content = read(json);
+  if (!faults.empty()) return input_errors(std::move(faults));
+  return content;
+}
+
+/// As above, for the document in a file. Errors: also those of read_json_file().
+template <class Read>
+auto read_json_object(const std::filesystem::path& path, const Read& read)
+    -> Result<std::invoke_result_t<const Read&, JsonObject&>> {
+  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
+  return read_json_object(document, path.string(), read);
+}
 
 /// Returns a JSON Schema (draft 2020-12) that accepts every document that `read` accepts. To derive
 /// it, `read` is run for every value of every choice(), with and without optional keys. The schema

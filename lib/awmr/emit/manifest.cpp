@@ -50,12 +50,7 @@ Result<Hashes> hashes_in(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / kManifest;
   AWMR_ASSIGN_OR_RETURN(const bool exists, regular_file_exists(path));
   if (!exists) return Hashes{};
-  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
-  std::vector<Fault> faults;
-  JsonObject json(document, path.string(), "", faults);
-  Hashes hashes = read_manifest(json);
-  if (!faults.empty()) return input_errors(std::move(faults));
-  return hashes;
+  return read_json_object(path, read_manifest);
 }
 
 /// Returns the reason why `file` must not replace the existing file with the content `bytes`; empty

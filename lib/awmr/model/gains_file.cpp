@@ -86,12 +86,7 @@ ModeGains gains_from_file(JsonObject& root) {
 }  // namespace
 
 Result<ModeGains> read_mode_gains(const std::filesystem::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
-  std::vector<Fault> faults;
-  JsonObject root(json, path.string(), "", faults);
-  const ModeGains gains = gains_from_file(root);
-  if (!faults.empty()) return input_errors(std::move(faults));
-  return gains;
+  return read_json_object(path, gains_from_file);
 }
 
 Result<Gains<double>> read_gains(const std::filesystem::path& path) {

@@ -68,7 +68,7 @@ void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
 
 constexpr std::string_view kScenarioSchema = "awmr.scenario/1";
 
-Scenario read_fields(JsonObject& json) {
+Scenario scenario_from_json(JsonObject& json) {
   Scenario scenario;
   json.schema(kScenarioSchema);
   scenario.name = json.string("name");
@@ -87,29 +87,20 @@ Scenario read_fields(JsonObject& json) {
   return scenario;
 }
 
-Result<Scenario> scenario_from_json(const Json& document, const std::string& file) {
-  std::vector<Fault> faults;
-  JsonObject json(document, file, "", faults);
-  Scenario scenario = read_fields(json);
-  if (!faults.empty()) return input_errors(std::move(faults));
-  return scenario;
-}
-
 }  // namespace
 
 Result<Scenario> read_scenario(const std::filesystem::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const Json document, read_json_file(path));
-  return scenario_from_json(document, path.string());
+  return read_json_object(path, scenario_from_json);
 }
 
 Result<Scenario> scenario_from_text(std::string_view text, const std::string& file) {
   AWMR_ASSIGN_OR_RETURN(const Json document, read_json_text(text, file));
-  return scenario_from_json(document, file);
+  return read_json_object(document, file, scenario_from_json);
 }
 
 std::string scenario_schema() {
   return json_schema_text(kScenarioSchema, "A scenario: task and environment",
-                          [](JsonObject& json) { read_fields(json); });
+                          [](JsonObject& json) { scenario_from_json(json); });
 }
 
 }  // namespace awmr
