@@ -72,11 +72,7 @@ Result<ComparedInputs> read_inputs(const CompareCommand& command) {
 }
 
 std::vector<fs::path> inputs_of(const CompareCommand& command) {
-  std::vector<fs::path> paths{command.model};
-  paths.insert(paths.end(), command.gains.begin(), command.gains.end());
-  paths.insert(paths.end(), command.scenarios.begin(), command.scenarios.end());
-  if (command.plant.tyres_file) paths.push_back(*command.plant.tyres_file);
-  return paths;
+  return all_paths(command.model, command.gains, command.scenarios, command.plant.tyres_file);
 }
 
 Result<Provenance> provenance_of(const CompareCommand& command, const ComparedInputs& compared) {

@@ -23,8 +23,7 @@ struct ExportCommand {
 };
 
 Result<Outcome> execute(const ExportCommand& command) {
-  std::vector<fs::path> paths{command.model};
-  if (command.gains) paths.push_back(*command.gains);
+  const std::vector<fs::path> paths = all_paths(command.model, command.gains);
   AWMR_RETURN_IF_ERROR(check_output(command.output, paths));
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(command.model));
   ExportSource source{.model = model};

@@ -20,10 +20,7 @@ namespace awmr::cli {
 namespace {
 
 std::vector<fs::path> inputs_of(const IdentifyCommand& command) {
-  std::vector<fs::path> paths{command.vehicle};
-  const std::vector<fs::path> trials = paths_of(command.trials);
-  paths.insert(paths.end(), trials.begin(), trials.end());
-  return paths;
+  return all_paths(command.vehicle, paths_of(command.trials));
 }
 
 Result<Provenance> provenance_of(const IdentifyCommand& command) {

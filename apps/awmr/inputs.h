@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,24 @@ inline constexpr const char* kColumnHelp =
 /// Returns the names of these paths: relative to the project file's directory, as written in it.
 InputNames names_in_project(const std::vector<std::filesystem::path>& paths,
                             const std::filesystem::path& project);
+
+/// Returns all given paths in this order. Each argument is a path, an optional path or a list.
+template <class... Given>
+std::vector<std::filesystem::path> all_paths(const Given&... given) {
+  using Path = std::filesystem::path;
+  std::vector<Path> paths;
+  const auto add = [&paths]<class One>(const One& one) {
+    if constexpr (std::is_same_v<One, Path>) {
+      paths.push_back(one);
+    } else if constexpr (std::is_same_v<One, std::optional<Path>>) {
+      if (one) paths.push_back(*one);
+    } else {
+      paths.insert(paths.end(), one.begin(), one.end());
+    }
+  };
+  (add(given), ...);
+  return paths;
+}
 
 inline constexpr const char* kColumnsFileHelp =
     "JSON file whose object `columns` has column mappings, as `awmr map -o` writes it; --column "

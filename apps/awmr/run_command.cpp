@@ -79,12 +79,8 @@ Result<Outcome> validate_step(const Project& project, const InputNames& names,
 /// Returns the paths of all files that the project names, and of the project file itself.
 std::vector<fs::path> inputs_of(const RunCommand& command, const Project& project,
                                 const TuneConfig& tune) {
-  std::vector<fs::path> inputs{command.project, project.vehicle};
-  if (project.tune) inputs.push_back(*project.tune);
-  for (const auto& paths : {paths_of(project.trials), project.scenarios, tune.scenario_files}) {
-    inputs.insert(inputs.end(), paths.begin(), paths.end());
-  }
-  return inputs;
+  return all_paths(command.project, project.vehicle, project.tune, paths_of(project.trials),
+                   project.scenarios, tune.scenario_files);
 }
 
 template <class T>

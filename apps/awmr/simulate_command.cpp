@@ -139,9 +139,8 @@ bool has_side_file(const fs::path& output) {
 /// Returns the paths of the input files, after checking the outputs. Errors (input): an output
 /// cannot be written, or is an input.
 Result<std::vector<fs::path>> checked_inputs(const SimulateCommand& command) {
-  std::vector<fs::path> inputs{command.model, command.scenario};
-  if (command.gains) inputs.push_back(*command.gains);
-  if (command.plant.tyres_file) inputs.push_back(*command.plant.tyres_file);
+  std::vector<fs::path> inputs =
+      all_paths(command.model, command.scenario, command.gains, command.plant.tyres_file);
   AWMR_RETURN_IF_ERROR(check_output(command.output, inputs));
   if (has_side_file(command.output)) {
     AWMR_RETURN_IF_ERROR(check_output(run_side_path(command.output), inputs));

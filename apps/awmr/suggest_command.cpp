@@ -87,10 +87,7 @@ Result<Suggestion> suggest_with_progress(const Model& model, const SuggestOption
 }
 
 std::vector<fs::path> inputs_of(const SuggestCommand& command) {
-  std::vector<fs::path> paths{command.model};
-  if (command.gains) paths.push_back(*command.gains);
-  if (command.scenario) paths.push_back(*command.scenario);
-  return paths;
+  return all_paths(command.model, command.gains, command.scenario);
 }
 
 Result<std::string> document_of(const SuggestCommand& command, const Suggestion& suggestion) {

@@ -127,11 +127,7 @@ Result<ChosenConfig> config_of(const TuneCommand& command, Model& model) {
 }
 
 std::vector<fs::path> inputs_of(const TuneCommand& command, const TuneConfig& config) {
-  std::vector<fs::path> paths{command.model};
-  if (command.config) paths.push_back(*command.config);
-  if (config.baseline_file) paths.push_back(*config.baseline_file);
-  paths.insert(paths.end(), config.scenario_files.begin(), config.scenario_files.end());
-  return paths;
+  return all_paths(command.model, command.config, config.baseline_file, config.scenario_files);
 }
 
 Result<Provenance> provenance_of(const TuneCommand& command, const std::vector<fs::path>& paths) {

@@ -111,11 +111,7 @@ Result<std::optional<ModeGains>> gains_of(const ValidateCommand& command, const 
 }
 
 std::vector<fs::path> inputs_of(const ValidateCommand& command) {
-  std::vector<fs::path> paths{command.model};
-  if (command.gains) paths.push_back(*command.gains);
-  paths.insert(paths.end(), command.logs.begin(), command.logs.end());
-  if (command.scenario) paths.push_back(*command.scenario);
-  return paths;
+  return all_paths(command.model, command.gains, command.logs, command.scenario);
 }
 
 Status check_outputs(const ValidateCommand& command) {
