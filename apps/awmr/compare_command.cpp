@@ -78,13 +78,12 @@ std::vector<fs::path> inputs_of(const CompareCommand& command) {
 Result<Provenance> provenance_of(const CompareCommand& command, const ComparedInputs& compared) {
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs,
                         input_files(inputs_of(command), command.names));
-  std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
+  NamedOptions options;
+  describe_allocation(command.allocation, options);
   options.emplace_back("samples", std::to_string(command.compare.samples));
   options.emplace_back("seed", std::to_string(command.compare.seed));
-  for (auto& option : options_of_rate(compared.rate)) options.push_back(std::move(option));
-  for (auto& option : options_of(command.plant, compared.scenarios)) {
-    options.push_back(std::move(option));
-  }
+  describe_rate(compared.rate, options);
+  describe_plant(command.plant, compared.scenarios, options);
   if (command.compare.break_even) options.emplace_back("break_even", "true");
   const Preferences& preferences = command.compare.preferences;
   if (!preferences.weights.empty()) {
@@ -187,7 +186,9 @@ std::string table_of(const CompareCommand& command, const ComparedInputs& inputs
   std::string table =
       comparison_table(comparison, command.compare) + rate_in_words(inputs.rate, inputs.model);
   table += inputs.equipment;
-  for (const auto& [name, text] : options_of(command.plant, inputs.scenarios)) {
+  NamedOptions plant;
+  describe_plant(command.plant, inputs.scenarios, plant);
+  for (const auto& [name, text] : plant) {
     table += fmt::format("{}: {}\n", name, text);
   }
   return table;

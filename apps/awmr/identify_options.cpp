@@ -146,8 +146,8 @@ Status use_parts(const std::vector<std::string>& excluded, TrialOptions& trials)
   return {};
 }
 
-std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options) {
-  std::vector<std::pair<std::string, std::string>> words{
+NamedOptions described(const IdentifyOptions& options) {
+  NamedOptions words{
       {"method",
        std::string(options.method ? name_in(kMethodNames, *options.method) : "by the data")},
       {"noise",
@@ -170,8 +170,7 @@ std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions
   return words;
 }
 
-void describe_parts(const TrialOptions& trials,
-                    std::vector<std::pair<std::string, std::string>>& words) {
+void describe_parts(const TrialOptions& trials, NamedOptions& words) {
   const TrialOptions whole;
   if (trials.used_s.lo > whole.used_s.lo) {
     words.emplace_back("from", fmt::format("{}", trials.used_s.lo));
@@ -184,8 +183,7 @@ void describe_parts(const TrialOptions& trials,
   }
 }
 
-void describe_reading(const TrialFiles& trials,
-                      std::vector<std::pair<std::string, std::string>>& words) {
+void describe_reading(const TrialFiles& trials, NamedOptions& words) {
   const TrialOptions& options = trials.options;
   words.emplace_back("prefer", name_in(kPreferenceNames, options.preference));
   if (options.as_is) words.emplace_back("as-is", "true");

@@ -36,15 +36,13 @@ Status check_used(const TrialOptions& trials);
 Status use_parts(const std::vector<std::string>& excluded, TrialOptions& trials);
 
 /// Returns the options as pairs of name and value, for the record of the model's origin.
-std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options);
+NamedOptions described(const IdentifyOptions& options);
 
 /// Appends the options `--from`, `--until` and `--exclude`, as pairs of name and value, to `words`.
 /// Appends nothing if the logs are used completely.
-void describe_parts(const TrialOptions& trials,
-                    std::vector<std::pair<std::string, std::string>>& words);
+void describe_parts(const TrialOptions& trials, NamedOptions& words);
 
 /// Appends the options with which the trials were read, as pairs of name and value, to `words`.
-void describe_reading(const TrialFiles& trials,
-                      std::vector<std::pair<std::string, std::string>>& words);
+void describe_reading(const TrialFiles& trials, NamedOptions& words);
 
 }  // namespace awmr::cli

@@ -140,8 +140,7 @@ Result<Outcome> execute(const MapCommand& command) {
     AWMR_ASSIGN_OR_RETURN(const std::vector<InputFile> more, input_files({*command.vehicle}));
     inputs.insert(inputs.end(), more.begin(), more.end());
   }
-  std::vector<std::pair<std::string, std::string>> options{
-      {"trial", std::string(name_in(kTrialKindNames, command.trial))}};
+  NamedOptions options{{"trial", std::string(name_in(kTrialKindNames, command.trial))}};
   Outcome outcome{.summary = summary_of(command, guesses, sample),
                   .document = text_of(command, guesses, sample,
                                       {"map", std::move(options), std::move(inputs)})};

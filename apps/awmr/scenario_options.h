@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/scenario.h"
@@ -138,14 +139,14 @@ inline std::string plants_text(std::span<const Scenario> scenarios) {
   return text;
 }
 
-/// Returns name and description of the vehicle model, for the list of options in an output file.
-/// Empty without `--plant`, if all scenarios use the 3-DOF model.
-inline std::vector<std::pair<std::string, std::string>> options_of(
-    const PlantChoice& choice, std::span<const Scenario> scenarios) {
+/// Appends the vehicle model to the options of an output file. Appends nothing without `--plant`,
+/// if all scenarios use the 3-DOF model.
+inline void describe_plant(const PlantChoice& choice, std::span<const Scenario> scenarios,
+                           NamedOptions& options) {
   const bool is_model = std::none_of(scenarios.begin(), scenarios.end(),
                                      [](const Scenario& s) { return s.tyres.has_value(); });
-  if (scenarios.empty() || (is_model && !choice.kind)) return {};
-  return {{kPlantName, plants_text(scenarios)}};
+  if (scenarios.empty() || (is_model && !choice.kind)) return;
+  options.emplace_back(kPlantName, plants_text(scenarios));
 }
 
 /// Form of the allocation, that is, of the equations that compute wheel forces and steering angle:
@@ -160,11 +161,9 @@ inline void add_allocation(CLI::App& command, AllocationChoice& choice) {
       "vehicle selects, else exact)");
 }
 
-/// Returns the option and its value, for the list of options in an output file; empty if the option
-/// is not given.
-inline std::vector<std::pair<std::string, std::string>> options_of(const AllocationChoice& choice) {
-  if (!choice) return {};
-  return {{"allocation", std::string(name_in(kAllocationFormNames, *choice))}};
+/// Appends `--allocation` to the options of an output file, if it is given.
+inline void describe_allocation(const AllocationChoice& choice, NamedOptions& options) {
+  if (choice) options.emplace_back("allocation", name_in(kAllocationFormNames, *choice));
 }
 
 /// Makes the chosen form apply everywhere: sets it in the model's vehicle, and removes it from the
@@ -189,12 +188,9 @@ inline void add_heading_rate_limit(CLI::App& command, HeadingRateChoice& choice,
       ->check(CLI::Validator(fault_of_rate, "measured, none or deg/s", ""));
 }
 
-/// Returns the option and its value, for the list of options in an output file; empty if the option
-/// is not given.
-inline std::vector<std::pair<std::string, std::string>> options_of_rate(
-    const HeadingRateChoice& choice) {
-  if (choice.empty()) return {};
-  return {{kRateName, choice}};
+/// Appends `--heading-rate-limit` to the options of an output file, if it is given.
+inline void describe_rate(const HeadingRateChoice& choice, NamedOptions& options) {
+  if (!choice.empty()) options.emplace_back(kRateName, choice);
 }
 
 /// Describes the heading-rate limit. For 'measured', the text has no number, because the number is

@@ -118,13 +118,11 @@ std::string document_of(const Run& run, const Scenario& scenario, YawMode mode,
 Result<Provenance> provenance_of(const SimulateCommand& command, const Scenario& scenario,
                                  const std::vector<fs::path>& paths) {
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths));
-  std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
+  NamedOptions options;
+  describe_allocation(command.allocation, options);
   options.emplace_back("mode", std::string(name_of(command.mode)));
-  for (auto& option : options_of_rate(command.heading_rate_limit)) {
-    options.push_back(std::move(option));
-  }
-  for (auto& option : options_of(command.plant, std::vector<Scenario>{scenario}))
-    options.push_back(std::move(option));
+  describe_rate(command.heading_rate_limit, options);
+  describe_plant(command.plant, std::span(&scenario, 1), options);
   return Provenance{"simulate", std::move(options), std::move(inputs)};
 }
 

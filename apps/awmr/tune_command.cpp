@@ -132,7 +132,8 @@ std::vector<fs::path> inputs_of(const TuneCommand& command, const TuneConfig& co
 
 Result<Provenance> provenance_of(const TuneCommand& command, const std::vector<fs::path>& paths) {
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths, command.names));
-  std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
+  NamedOptions options;
+  describe_allocation(command.allocation, options);
   if (command.nominal) options.emplace_back("nominal", "true");
   if (command.observer) {
     options.emplace_back(*command.observer ? "observer" : "no-observer", "true");
@@ -141,9 +142,7 @@ Result<Provenance> provenance_of(const TuneCommand& command, const std::vector<f
   if (command.mode) options.emplace_back("mode", std::string(name_of(*command.mode)));
   if (command.one_set) options.emplace_back("one-set", "true");
   if (command.draws) options.emplace_back("draws", std::to_string(*command.draws));
-  for (auto& option : options_of_rate(command.heading_rate_limit)) {
-    options.push_back(std::move(option));
-  }
+  describe_rate(command.heading_rate_limit, options);
   return Provenance{"tune", std::move(options), std::move(inputs)};
 }
 

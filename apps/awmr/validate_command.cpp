@@ -123,7 +123,8 @@ Status check_outputs(const ValidateCommand& command) {
 Result<Provenance> provenance_of(const ValidateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs,
                         input_files(inputs_of(command), command.names));
-  std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
+  NamedOptions options;
+  describe_allocation(command.allocation, options);
   options.emplace_back("tolerance", format_number(command.validate.tolerance));
   describe_parts(command.trials, options);
   if (command.tyres) options.emplace_back("tyres", "true");

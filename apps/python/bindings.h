@@ -84,7 +84,7 @@ struct VehicleOfFile : Vehicle {
 /// Trials, their files, and the options with which the files were read.
 struct TrialsOfFiles : Trials {
   std::vector<InputFile> inputs = {};
-  std::vector<std::pair<std::string, std::string>> reading = {};  ///< options as text
+  NamedOptions reading = {};  ///< options as text
   bool as_is = false;
 };
 

@@ -17,11 +17,14 @@ struct InputFile {
   std::string sha256;  ///< hash of its bytes
 };
 
+/// Names and values of options, in order.
+using NamedOptions = std::vector<std::pair<std::string, std::string>>;
+
 /// How an output file was made.
 struct Provenance {
   std::string command;  ///< "identify", "tune", ...
-  /// Name and value of every option, including defaults.
-  std::vector<std::pair<std::string, std::string>> options;
+  /// Every option, including defaults.
+  NamedOptions options;
   std::vector<InputFile> inputs;
 };
 
