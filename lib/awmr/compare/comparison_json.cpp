@@ -18,18 +18,10 @@
 namespace awmr {
 namespace {
 
-Json optional_json(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json interval_json(const std::optional<Interval>& interval) {
-  return interval ? Json::array({interval->lo, interval->hi}) : Json(nullptr);
-}
-
 Json summary_json(const Summary& summary) {
-  return {{"nominal", optional_json(summary.nominal)}, {"count", summary.count},
-          {"mean", optional_json(summary.mean)},       {"q05", optional_json(summary.q05)},
-          {"q50", optional_json(summary.q50)},         {"q95", optional_json(summary.q95)}};
+  return {{"nominal", value_or_null(summary.nominal)}, {"count", summary.count},
+          {"mean", value_or_null(summary.mean)},       {"q05", value_or_null(summary.q05)},
+          {"q50", value_or_null(summary.q50)},         {"q95", value_or_null(summary.q95)}};
 }
 
 Json mode_json(const ModeRows& rows) {
@@ -41,7 +33,7 @@ Json mode_json(const ModeRows& rows) {
       {"of", runs},
       {"share", rows.completed_share()},
       {"ci95",
-       interval_json(runs >= 2 ? std::optional(clopper_pearson(rows.completed_count(), runs))
+       value_or_null(runs >= 2 ? std::optional(clopper_pearson(rows.completed_count(), runs))
                                : std::nullopt)}};
   json["metrics"] = Json::object();
   for (const MetricColumn& metric : kMetricColumns) {
@@ -58,14 +50,14 @@ Json difference_json(const PairedDifference& d) {
   Json json = {{"first", d.first.label()},
                {"second", d.second.label()},
                {"metric", column_of(d.metric).name},
-               {"nominal", optional_json(d.nominal)},
+               {"nominal", value_or_null(d.nominal)},
                {"count", d.count},
-               {"mean", optional_json(d.mean)},
-               {"ci95", interval_json(d.ci95)},
-               {"p", optional_json(d.p)},
-               {"p_holm", optional_json(d.p_holm)},
+               {"mean", value_or_null(d.mean)},
+               {"ci95", value_or_null(d.ci95)},
+               {"p", value_or_null(d.p)},
+               {"p_holm", value_or_null(d.p_holm)},
                {"margin", d.margin},
-               {"p_equivalent", optional_json(d.p_equivalent)}};
+               {"p_equivalent", value_or_null(d.p_equivalent)}};
   put_conclusion(json, "conclusion", d.conclusion);
   return json;
 }
@@ -75,10 +67,10 @@ Json ranked_json(const RankedMode& ranked) {
                {"mode", ranked.contender.label()},
                {"score", ranked.score},
                {"completed_share", ranked.completed_share},
-               {"behind_ci95", interval_json(ranked.behind_ci95)},
+               {"behind_ci95", value_or_null(ranked.behind_ci95)},
                {"tied_with", ranked.tied_with},
                {"first_by_weights", ranked.first_by_weights},
-               {"first_by_samples", optional_json(ranked.first_by_samples)},
+               {"first_by_samples", value_or_null(ranked.first_by_samples)},
                {"dominated_by", ranked.dominated_by}};
   put_conclusion(json, "towards_leader", ranked.towards_leader);
   return json;
@@ -189,7 +181,7 @@ Json break_even_json(const std::vector<BreakEven>& entries) {
     json.push_back({{"scenario", entry.scenario},
                     {"mode", name_of(entry.mode)},
                     {"against", name_of(entry.against)},
-                    {"yaw_coulomb_m", optional_json(entry.yaw_coulomb_m)},
+                    {"yaw_coulomb_m", value_or_null(entry.yaw_coulomb_m)},
                     {"most_m", entry.most_m},
                     {"sliding_m", entry.sliding_m},
                     {"fastest_degps", entry.fastest_degps}});

@@ -186,6 +186,15 @@ auto read_json_object(const std::filesystem::path& path, const Read& read)
 std::string json_schema_text(std::string_view format, std::string_view title,
                              const std::function<void(JsonObject&)>& read);
 
+/// A number, or null if it is absent.
+inline Json value_or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+/// `[lo, hi]`, or null if the interval is absent.
+inline Json value_or_null(const std::optional<Interval>& interval) {
+  return interval ? Json::array({interval->lo, interval->hi}) : Json(nullptr);
+}
+
 /// Writes the provenance keys `{"command", "version", "options", "inputs"}` into `json`.
 void put_provenance(Json& json, const Provenance& provenance);
 /// A new output document with the keys `schema` and those of put_provenance().

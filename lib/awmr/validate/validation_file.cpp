@@ -5,18 +5,14 @@
 namespace awmr {
 namespace {
 
-Json optional_json(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
 Json trial_json(const TrialResidual& trial) {
   return {{"kind", name_in(kTrialKindNames, trial.kind)},
           {"file", trial.file},
           {"line", trial.line},
           {"unit", trial.unit},
           {"measured", trial.measured},
-          {"predicted", optional_json(trial.predicted)},
-          {"relative_error", optional_json(trial.relative_error)}};
+          {"predicted", value_or_null(trial.predicted)},
+          {"relative_error", value_or_null(trial.relative_error)}};
 }
 
 Json error_json(const PredictionError& error) {
@@ -85,7 +81,7 @@ Json drive_json(const Acceptance& drive) {
                              {"distance", one.distance},
                              {"allowed", one.allowed},
                              {"inside", one.inside},
-                             {"outside_since_s", optional_json(one.outside_since_s)},
+                             {"outside_since_s", value_or_null(one.outside_since_s)},
                              {"difference", one.difference}};
   }
   Json hypotheses = Json::array();
@@ -148,9 +144,9 @@ std::string validation_text(const Validation& validation, const Provenance& prov
   json["passed"] = validation.passed;
   json["verdict"] = validation.verdict;
   json["rms_relative_error"] = {
-      {"surge", optional_json(validation.surge_rms_relative_error)},
-      {"turning", optional_json(validation.turning_rms_relative_error)},
-      {"coastdown", optional_json(validation.coastdown_rms_relative_error)}};
+      {"surge", value_or_null(validation.surge_rms_relative_error)},
+      {"turning", value_or_null(validation.turning_rms_relative_error)},
+      {"coastdown", value_or_null(validation.coastdown_rms_relative_error)}};
   json["trials"] = Json::array();
   for (const TrialResidual& trial : validation.trials) json["trials"].push_back(trial_json(trial));
   json["logs"] = Json::array();
