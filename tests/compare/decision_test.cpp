@@ -237,7 +237,7 @@ TEST(Decision, IsUndecidedIfOneMetricAloneLeadsNarrowly) {
   const Comparison narrow = by_two_metrics(9.2, 0.35);
   const EvaluatedScenario one = evaluate_scenarios(narrow, {}, 1).front();
   ASSERT_TRUE(one.decision->narrow_lead);
-  EXPECT_EQ(one.decision->narrow_lead->metric, MetricId::kTyreWork);
+  EXPECT_EQ(one.decision->narrow_lead->metric->name, "tyre_work");
   EXPECT_THAT(one.decision->narrow_lead->others, ElementsAre(kSteering));
   EXPECT_EQ(one.decision->kind(), DecisionKind::kUndecided);
   EXPECT_THAT(one.verdict, ::testing::StartsWith("differential is ahead here"));

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "awmr/compare/ranking.h"
@@ -16,6 +18,10 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+
+const MetricColumn& metric_named(std::string_view name) {
+  return *std::ranges::find(kMetricColumns, name, &MetricColumn::name);
+}
 
 ComparisonRow row(YawMode mode, int sample, double iae_degs, bool completed = true) {
   ComparisonRow r{.scenario = "s", .mode = mode, .sample = sample, .metrics = {}};
@@ -30,14 +36,14 @@ TEST(Summary, LeavesTheNominalRunOutOfTheSamples) {
     c.rows.push_back(row(YawMode::kSteering, i, i == 0 ? 100.0 : i));
   }
   const auto groups = group(c);
-  const Summary s = summarise(groups[0].modes[0], column_of(MetricId::kHeadingIae));
+  const Summary s = summarise(groups[0].modes[0], metric_named("heading_iae_degs"));
   EXPECT_EQ(s.nominal, 100.0);
   EXPECT_EQ(s.count, 4U);
   EXPECT_EQ(s.mean, 2.5);
   EXPECT_NEAR(*s.q05, 1.15, 1e-15);
   EXPECT_EQ(s.q50, 2.5);
   EXPECT_NEAR(*s.q95, 3.85, 1e-15);
-  EXPECT_FALSE(summarise(groups[0].modes[0], column_of(MetricId::kClearance)).mean);
+  EXPECT_FALSE(summarise(groups[0].modes[0], metric_named("clearance_min_m")).mean);
 }
 
 TEST(Summary, CountsTheSamplesThatWereCompleted) {
@@ -50,7 +56,7 @@ TEST(Summary, WithoutSamplesHasTheNominalMeanAndNoQuantiles) {
   Comparison c;
   c.rows.push_back(row(YawMode::kSteering, 0, 3.0));
   const auto groups = group(c);
-  const Summary s = summarise(groups[0].modes[0], column_of(MetricId::kHeadingIae));
+  const Summary s = summarise(groups[0].modes[0], metric_named("heading_iae_degs"));
   EXPECT_EQ(s.mean, 3.0);
   EXPECT_FALSE(s.q05 || s.q50 || s.q95);
 }
@@ -73,7 +79,7 @@ Comparison paired(int samples, double difference_spread) {
 
 PairedDifference iae_difference(const Comparison& c, std::uint64_t seed) {
   for (const PairedDifference& d : statistics_of(group(c)[0], {}, seed).differences) {
-    if (d.metric == MetricId::kHeadingIae) return d;
+    if (d.metric->name == "heading_iae_degs") return d;
   }
   return {};
 }
@@ -126,7 +132,7 @@ TEST(Bootstrap, CoversAMeanOfTenAtItsRate) {
     const std::vector<ScenarioRows> scenarios = group(c);
     for (const PairedDifference& d :
          statistics_of(scenarios.front(), {}, static_cast<std::uint64_t>(trial)).differences) {
-      if (d.metric == MetricId::kSettlingTime) held += d.ci95->contains(0.0) ? 1 : 0;
+      if (d.metric->name == "settling_time_s") held += d.ci95->contains(0.0) ? 1 : 0;
     }
   }
   // About 95 % of 400 intervals must contain the true mean; the bounds are three standard
@@ -318,7 +324,7 @@ TEST(Preferences, RefuseInvalidWeights) {
 TEST(PairedDifferences, AreRelevantEquivalentOrUndecided) {
   const auto conclusion = [](const Comparison& c) {
     for (const PairedDifference& d : statistics_of(group(c)[0], {}, 1).differences) {
-      if (d.metric == MetricId::kSettlingTime && d.second.mode == YawMode::kSteering) {
+      if (d.metric->name == "settling_time_s" && d.second.mode == YawMode::kSteering) {
         return d.conclusion;
       }
     }

@@ -204,7 +204,7 @@ TEST(Tally, CountsTheBestAndTheTied) {
   // The two metrics set above, and seven that every run has (sideslip, control variation, energy,
   // wear), all 0.
   ASSERT_EQ(tallies.size(), 9U);
-  EXPECT_EQ(tallies[0].metric, MetricId::kSettlingTime);
+  EXPECT_EQ(tallies[0].metric->name, "settling_time_s");
   EXPECT_EQ(tallies[0].scenarios, 2);
   EXPECT_THAT(tallies[0].best_or_tied, ElementsAre(2, 1));
   EXPECT_THAT(tallies[1].best_or_tied, ElementsAre(2, 2));
@@ -217,7 +217,7 @@ TEST(Tally, AModeWithoutTheMetricIsWorse) {
   }
   const Evaluated one = evaluate(c);
   const auto tallies = tally({one.scenario});
-  EXPECT_EQ(tallies[0].metric, MetricId::kSettlingTime);
+  EXPECT_EQ(tallies[0].metric->name, "settling_time_s");
   EXPECT_THAT(tallies[0].best_or_tied, ElementsAre(1, 0));
   for (const MetricTally& tally : tallies) EXPECT_EQ(tally.scenarios, 1);
 }

@@ -49,7 +49,7 @@ void put_conclusion(Json& json, const char* key, const std::optional<Conclusion>
 Json difference_json(const PairedDifference& d) {
   Json json = {{"first", d.first.label()},
                {"second", d.second.label()},
-               {"metric", column_of(d.metric).name},
+               {"metric", d.metric->name},
                {"nominal", value_or_null(d.nominal)},
                {"count", d.count},
                {"mean", value_or_null(d.mean)},
@@ -92,7 +92,7 @@ Json decision_json(const std::string& scenario, const Decision& decision,
                {"deciding_trials", decision.deciding_trials()},
                {"changes", Json::array()}};
   if (decision.narrow_lead) {
-    json["narrow_lead"] = {{"metric", column_of(decision.narrow_lead->metric).name},
+    json["narrow_lead"] = {{"metric", decision.narrow_lead->metric->name},
                            {"over", labels_json(decision.narrow_lead->others)}};
   }
   for (const Change& change : decision.changes) {
@@ -155,9 +155,8 @@ Json overall_json(const std::vector<EvaluatedScenario>& ranked) {
     for (std::size_t i = 0; i < one.best_or_tied.size(); ++i) {
       counts[ranked.front().rows.modes[i].label()] = one.best_or_tied[i];
     }
-    json.push_back({{"metric", column_of(one.metric).name},
-                    {"scenarios", one.scenarios},
-                    {"best_or_tied", counts}});
+    json.push_back(
+        {{"metric", one.metric->name}, {"scenarios", one.scenarios}, {"best_or_tied", counts}});
   }
   return json;
 }

@@ -100,8 +100,8 @@ std::string overall_of(const std::vector<EvaluatedScenario>& scenarios) {
   }
   text += '\n';
   for (const MetricTally& one : tally(scenarios)) {
-    if (column_of(one.metric).head.empty()) continue;
-    text += fmt::format("  {:<20} {:>9}", column_of(one.metric).name, one.scenarios);
+    if (one.metric->head.empty()) continue;
+    text += fmt::format("  {:<20} {:>9}", one.metric->name, one.scenarios);
     for (std::size_t i = 0; i < one.best_or_tied.size(); ++i) {
       const std::size_t width =
           std::max<std::size_t>(12, scenarios.front().rows.modes[i].label().size());

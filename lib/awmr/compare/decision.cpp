@@ -36,7 +36,7 @@ const PairedDifference* only_gap(const std::vector<PairedDifference>& difference
   const PairedDifference* only = nullptr;
   for (const PairedDifference& d : differences) {
     if (!d.is_between(own, other) || d.conclusion != Conclusion::kRelevant) continue;
-    if (!(weight_of(column_of(d.metric), preferences) > 0.0)) continue;
+    if (!(weight_of(*d.metric, preferences) > 0.0)) continue;
     if ((*d.mean < 0.0) != (d.first == own)) continue;
     if (only != nullptr) return nullptr;
     only = &d;
@@ -58,7 +58,7 @@ std::optional<NarrowLead> narrow_lead_of(const ScenarioRows& scenario,
     const PairedDifference* gap =
         only_gap(statistics.differences, preferences, first.front(), other.contender);
     if (gap == nullptr || (lead && lead->metric != gap->metric)) continue;
-    const MetricColumn& metric = column_of(gap->metric);
+    const MetricColumn& metric = *gap->metric;
     Preferences halved = preferences;
     halved.weights[std::string(metric.name)] = weight_of(metric, preferences) / kWeightFactor;
     if (!has(first_of(rank(scenario, statistics, halved, seed)), other.contender)) continue;

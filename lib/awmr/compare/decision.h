@@ -38,8 +38,8 @@ inline constexpr NameTable<DecisionKind, 3> kDecisionKindNames{
 /// just one ranked metric, and relevantly worse in at least one other. If the weight of this one
 /// metric is divided by kWeightFactor, the mode that is behind reaches rank 1 as well.
 struct NarrowLead {
-  MetricId metric{};
-  std::vector<Contender> others;  ///< modes over which the lead is narrow
+  const MetricColumn* metric = nullptr;  ///< an entry of kMetricColumns
+  std::vector<Contender> others;         ///< modes over which the lead is narrow
 };
 
 /// Decision on a scenario: the modes of rank 1 in the ranking, and the modes of rank 1 if one

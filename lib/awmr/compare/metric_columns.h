@@ -9,34 +9,11 @@
 #include <variant>
 #include <vector>
 
-#include "awmr/core/index.h"
 #include "awmr/simulate/metrics.h"
 
 namespace awmr {
 
-/// Index of a metric in kMetricColumns.
-enum class MetricId {
-  kSettlingTime,
-  kOvershoot,
-  kHeadingIae,
-  kCrossTrack,
-  kPathLength,
-  kSpeedDrop,
-  kSideslip,
-  kYawRate,
-  kControlVariation,
-  kClearance,
-  kFinishTime,
-  kEnergyMech,
-  kEnergyElectric,
-  kSaturation,
-  kSteeringTravel,
-  kTyreWork,
-  kElectricWork,
-};
-
 struct MetricColumn {
-  MetricId id;
   std::string_view name;  ///< name in comparison.csv and comparison.json
   /// Column heading in the terminal's table, at most 7 characters; empty: no column.
   std::string_view head;
@@ -63,34 +40,27 @@ struct MetricColumn {
 /// 0. For example, the sideslip follows from the geometry of the turn. The control variation is
 /// nearly 0 in some modes, so its ratios mean little.
 inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
-    {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1,
-     1.0},
-    {MetricId::kOvershoot, "overshoot_deg", "overs.", "deg", &Metrics::overshoot_deg, 0.5, 0.0},
-    {MetricId::kHeadingIae, "heading_iae_degs", "IAE", "deg s", &Metrics::heading_iae_degs, 1.0,
-     1.0},
-    {MetricId::kCrossTrack, "cross_track_rms_m", "x-track", "m", &Metrics::cross_track_rms_m, 0.05,
-     1.0},
-    {MetricId::kPathLength, "path_length_m", "", "m", &Metrics::path_length_m},
-    {MetricId::kSpeedDrop, "speed_drop_mps", "drop", "m/s", &Metrics::speed_drop_mps, 0.02, 1.0},
-    {MetricId::kSideslip, "sideslip_max_deg", "slip", "deg", &Metrics::sideslip_max_deg, 0.5, 0.0},
-    {MetricId::kYawRate, "yaw_rate_max_degps", "yaw", "deg/s", &Metrics::yaw_rate_max_degps},
-    {MetricId::kControlVariation, "control_variation", "var.", "1/s", &Metrics::control_variation,
-     0.05, 0.0},
-    {MetricId::kClearance, "clearance_min_m", "clear", "m", &Metrics::clearance_min_m},
-    {MetricId::kFinishTime, "finish_time_s", "finish", "s", &Metrics::finish_time_s, 0.1, 1.0},
-    {MetricId::kEnergyMech, "energy_mech", "energy", "m", &Metrics::energy_mech, 0.05, 1.0},
-    {MetricId::kEnergyElectric, "energy_electric", "", "s", &Metrics::energy_electric, 0.5, 0.0},
-    {MetricId::kSaturation, "saturation_s", "", "s", &Metrics::saturation_s, 0.1, 0.0},
-    {MetricId::kSteeringTravel, "steering_travel_deg", "", "deg", &Metrics::steering_travel_deg,
-     5.0, 0.0},
-    {MetricId::kTyreWork, "tyre_work", "tyres", "m", &Metrics::tyre_work, 0.01, 1.0},
-    {MetricId::kElectricWork, "electric_work_j", "", "J", &Metrics::electric_work_j, 1.0, 0.0},
+    {"settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1, 1.0},
+    {"overshoot_deg", "overs.", "deg", &Metrics::overshoot_deg, 0.5, 0.0},
+    {"heading_iae_degs", "IAE", "deg s", &Metrics::heading_iae_degs, 1.0, 1.0},
+    {"cross_track_rms_m", "x-track", "m", &Metrics::cross_track_rms_m, 0.05, 1.0},
+    {"path_length_m", "", "m", &Metrics::path_length_m},
+    {"speed_drop_mps", "drop", "m/s", &Metrics::speed_drop_mps, 0.02, 1.0},
+    {"sideslip_max_deg", "slip", "deg", &Metrics::sideslip_max_deg, 0.5, 0.0},
+    {"yaw_rate_max_degps", "yaw", "deg/s", &Metrics::yaw_rate_max_degps},
+    {"control_variation", "var.", "1/s", &Metrics::control_variation, 0.05, 0.0},
+    {"clearance_min_m", "clear", "m", &Metrics::clearance_min_m},
+    {"finish_time_s", "finish", "s", &Metrics::finish_time_s, 0.1, 1.0},
+    {"energy_mech", "energy", "m", &Metrics::energy_mech, 0.05, 1.0},
+    {"energy_electric", "", "s", &Metrics::energy_electric, 0.5, 0.0},
+    {"saturation_s", "", "s", &Metrics::saturation_s, 0.1, 0.0},
+    {"steering_travel_deg", "", "deg", &Metrics::steering_travel_deg, 5.0, 0.0},
+    {"tyre_work", "tyres", "m", &Metrics::tyre_work, 0.01, 1.0},
+    {"electric_work_j", "", "J", &Metrics::electric_work_j, 1.0, 0.0},
 }};
 
 /// Returns the names of the columns of comparison.csv. With `with_gains`, the last column is
 /// `gains`.
 std::vector<std::string> comparison_columns(bool with_gains);
-
-inline const MetricColumn& column_of(MetricId id) { return kMetricColumns[at(id)]; }
 
 }  // namespace awmr

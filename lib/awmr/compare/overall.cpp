@@ -21,7 +21,7 @@ bool beats(const EvaluatedScenario& scenario, const MetricColumn& metric, const 
   if (!(*theirs < *mine)) return false;
   return std::any_of(scenario.differences.begin(), scenario.differences.end(),
                      [&](const PairedDifference& d) {
-                       return d.metric == metric.id && d.conclusion == Conclusion::kRelevant &&
+                       return d.metric == &metric && d.conclusion == Conclusion::kRelevant &&
                               d.is_between(own.contender, other.contender);
                      });
 }
@@ -88,7 +88,7 @@ std::vector<MetricTally> tally(const std::vector<EvaluatedScenario>& scenarios) 
   const std::vector<std::size_t> first = first_with_same_runs(scenarios);
   for (const MetricColumn& metric : kMetricColumns) {
     if (!metric.can_rank()) continue;
-    MetricTally one{metric.id, 0, std::vector<int>(contenders, 0)};
+    MetricTally one{&metric, 0, std::vector<int>(contenders, 0)};
     for (std::size_t s = 0; s < scenarios.size(); ++s) {
       const EvaluatedScenario& scenario = scenarios[s];
       if (first[s] != s || !any_has(scenario.rows, metric)) continue;

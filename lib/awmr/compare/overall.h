@@ -17,7 +17,7 @@ namespace awmr {
 
 /// For one metric: the number of scenarios in which each contender is best or tied with the best.
 struct MetricTally {
-  MetricId metric{};
+  const MetricColumn* metric = nullptr;  ///< an entry of kMetricColumns
   int scenarios = 0;              ///< number of ranked scenarios in which any mode has the metric
   std::vector<int> best_or_tied;  ///< counts by contender, in the order of ScenarioRows::modes
 };

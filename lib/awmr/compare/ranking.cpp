@@ -26,8 +26,8 @@ std::vector<double> resampled_differences(const RankingEntry& own, const Ranking
                                           const ScenarioStatistics& statistics) {
   std::vector<double> means(kResamples, 0.0);
   for (const ScoredMetric& scored : scoring) {
-    const auto& of_own = statistics.resampled_losses[loss_row(own.mode, scored.metric->id)];
-    const auto& of_leader = statistics.resampled_losses[loss_row(leader.mode, scored.metric->id)];
+    const auto& of_own = statistics.resampled_losses[loss_row(own.mode, *scored.metric)];
+    const auto& of_leader = statistics.resampled_losses[loss_row(leader.mode, *scored.metric)];
     for (std::size_t i = 0; i < means.size(); ++i) {
       means[i] += scored.weight * (of_own[i] - of_leader[i]);
     }
@@ -110,9 +110,9 @@ std::vector<double> shares_by_samples(const std::vector<RankingEntry>& entries, 
   return shares;
 }
 
-bool is_scored(MetricId metric, const std::vector<ScoredMetric>& scoring) {
+bool is_scored(const MetricColumn* metric, const std::vector<ScoredMetric>& scoring) {
   return std::any_of(scoring.begin(), scoring.end(),
-                     [&](const ScoredMetric& scored) { return scored.metric->id == metric; });
+                     [&](const ScoredMetric& scored) { return scored.metric == metric; });
 }
 
 /// True if two modes are equivalent in every scored metric that both have. Then even a significant

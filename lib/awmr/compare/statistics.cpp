@@ -64,7 +64,7 @@ PairedDifference difference_of(const ModeRows& first, const ModeRows& second,
   result.margin = margin_between(first, second, metric, relevance);
   result.first = first.contender;
   result.second = second.contender;
-  result.metric = metric.id;
+  result.metric = &metric;
   result.nominal = difference(metric, first.nominal(), second.nominal());
   const auto a = first.counted();
   const auto b = second.counted();
@@ -130,7 +130,7 @@ Eigen::ArrayXXd all_losses(const ScenarioRows& scenario, const Preferences& pref
                             eigen_index(scenario.modes.front().counted().size()));
   for (const ScoredMetric& scored : rankable_metrics(scenario, preferences)) {
     for (std::size_t mode = 0; mode < scenario.modes.size(); ++mode) {
-      auto row = losses.row(eigen_index(loss_row(mode, scored.metric->id)));
+      auto row = losses.row(eigen_index(loss_row(mode, *scored.metric)));
       Eigen::Index sample = 0;
       for (const ComparisonRow& run : scenario.modes[mode].counted()) {
         row[sample++] = log_loss(run.metrics, scored);

@@ -50,7 +50,7 @@ inline constexpr NameTable<Conclusion, 3> kConclusionNames{{{"relevant", Conclus
 struct PairedDifference {
   Contender first;
   Contender second;
-  MetricId metric{};
+  const MetricColumn* metric = nullptr;  ///< an entry of kMetricColumns
   /// Difference in sample 0 (the nominal model), in the metric's unit.
   std::optional<double> nominal;
   std::size_t count = 0;         ///< number of samples with the metric in both contenders
@@ -100,8 +100,8 @@ struct ScenarioStatistics {
 };
 
 /// Row of a mode (index in ScenarioRows::modes) and a metric in the resampled losses.
-inline std::size_t loss_row(std::size_t mode, MetricId metric) {
-  return mode * std::size(kMetricColumns) + at(metric);
+inline std::size_t loss_row(std::size_t mode, const MetricColumn& metric) {
+  return mode * kMetricColumns.size() + at(&metric - kMetricColumns.data());
 }
 
 ScenarioStatistics statistics_of(const ScenarioRows& scenario, const Preferences& preferences,

@@ -30,7 +30,7 @@ const PairedDifference* widest_gap(const std::vector<PairedDifference>& differen
   double widest_margins = 0.0;
   for (const PairedDifference& d : differences) {
     if (!d.is_between(best, other) || d.conclusion != Conclusion::kRelevant) continue;
-    if (!(weight_of(column_of(d.metric), preferences) > 0.0)) continue;
+    if (!(weight_of(*d.metric, preferences) > 0.0)) continue;
     const double behind = (d.first == best ? -*d.mean : *d.mean) / d.margin;
     if (behind > widest_margins) {
       widest = &d;
@@ -47,7 +47,7 @@ std::string gap_text(const PairedDifference* gap, const Contender& other) {
   // The difference is first minus second. The text states how much larger the metric of `other` is,
   // so the sign changes if `other` is the second contender.
   const double sign = gap->second == other ? -1.0 : 1.0;
-  const MetricColumn& metric = column_of(gap->metric);
+  const MetricColumn& metric = *gap->metric;
   std::string text = fmt::format(", most of all in {}: {:.3g} {} more", metric.name,
                                  sign * *gap->mean, metric.unit);
   if (gap->ci95) {
@@ -131,7 +131,7 @@ std::string tied_gaps_text(const std::vector<RankedMode>& ranking,
   const auto add = [&](const Contender& ahead, const Contender& behind) {
     const PairedDifference* gap = widest_gap(differences, preferences, ahead, behind);
     if (gap == nullptr) return;
-    const MetricColumn& metric = column_of(gap->metric);
+    const MetricColumn& metric = *gap->metric;
     gaps.push_back(fmt::format("{} {:.3g} {} more {} than {}", behind.label(), std::abs(*gap->mean),
                                metric.unit, metric.name, ahead.label()));
   };
@@ -193,7 +193,7 @@ std::string narrow_text(const Decision& decision) {
   return fmt::format(
       "; undecided: {} leads {} only by {}, and no longer if this metric has half of its weight",
       listed(decision.first), listed(decision.narrow_lead->others),
-      column_of(decision.narrow_lead->metric).name);
+      decision.narrow_lead->metric->name);
 }
 
 /// End of a verdict: "; undecided: ...", or "; combined keeps a first place ...", then modes that
