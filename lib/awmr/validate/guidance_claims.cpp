@@ -45,10 +45,6 @@ double largest_steering_deg(const ModeRun& run) {
   return degrees(largest);
 }
 
-std::optional<double> finish_s(const ModeRun& run) { return run.metrics.finish_time_s; }
-std::optional<double> cross_track_m(const ModeRun& run) { return run.metrics.cross_track_rms_m; }
-std::optional<double> path_m(const ModeRun& run) { return run.metrics.path_length_m; }
-std::optional<double> clearance(const ModeRun& run) { return run.metrics.clearance_min_m; }
 bool completed(const ModeRun& run) { return run.metrics.completed; }
 
 /// Names of the modes for which `condition` does not hold: "steering", "steering and combined".
@@ -76,8 +72,9 @@ Claim waypoints_reached(const ModeRuns& runs) {
           "steering angle |d_r| of at most 20 deg",
       .reproduced = reached && all_within,
       .figure = fmt::format("time to the last waypoint: {}; largest |d_r|: {}; path length: {}",
-                            by_mode(runs, "s", finish_s),
-                            by_mode(runs, "deg", largest_steering_deg), by_mode(runs, "m", path_m)),
+                            by_mode(runs, "s", &Metrics::finish_time_s),
+                            by_mode(runs, "deg", largest_steering_deg),
+                            by_mode(runs, "m", &Metrics::path_length_m)),
       .tolerance =
           "the vehicle passes each waypoint within 1 m (chosen here, because the paper prints no "
           "radius), and |d_r| is at most 20 deg",
@@ -136,8 +133,8 @@ bool alike(const ModeRuns& runs) {
   double least = 1e300;
   double most = 0.0;
   for (const ModeRun& run : runs) {
-    least = std::min(least, finish_s(run).value_or(0.0));
-    most = std::max(most, finish_s(run).value_or(1e300));
+    least = std::min(least, run.metrics.finish_time_s.value_or(0.0));
+    most = std::max(most, run.metrics.finish_time_s.value_or(1e300));
   }
   return most <= (1.0 + kAlikeShare) * least;
 }
@@ -147,7 +144,8 @@ Claim obstacles_avoided(const ModeRuns& line, const ModeRuns& points) {
   const bool same = alike(line) && alike(points);
   const auto figure = [](const char* where, const ModeRuns& runs) {
     return fmt::format("{0}, smallest clearance: {1}; {0}, finishing time: {2}", where,
-                       by_mode(runs, "m", clearance), by_mode(runs, "s", finish_s));
+                       by_mode(runs, "m", &Metrics::clearance_min_m),
+                       by_mode(runs, "s", &Metrics::finish_time_s));
   };
   return {
       .id = "C10",
@@ -198,12 +196,10 @@ OffPath off_path_by_mode(const ModeRuns& runs) {
 
 Claim timed_path_followed(const ModeRuns& open, const OffPath& closed_off_m) {
   const Scenario open_scenario = paper_scenario("c11_lissajous");
-  OffPath off_m = off_path_by_mode(open);
-  const auto off = [&](const ModeRun& run) -> std::optional<double> { return off_m[run.mode]; };
-  const auto closed_off = [&](const ModeRun& run) -> std::optional<double> {
-    return closed_off_m.at(run.mode);
-  };
-  const auto followed = [&](const ModeRun& run) { return *off(run) <= kPathTolerance_m; };
+  const OffPath off_m = off_path_by_mode(open);
+  const auto off = [&](const ModeRun& run) { return off_m.at(run.mode); };
+  const auto closed_off = [&](const ModeRun& run) { return closed_off_m.at(run.mode); };
+  const auto followed = [&](const ModeRun& run) { return off(run) <= kPathTolerance_m; };
   const bool all = all_modes(open, followed);
   const double radius_m = least_radius_m(std::get<LissajousPath>(open_scenario.guidance).path,
                                          open_scenario.duration_s);
@@ -229,16 +225,13 @@ Claim timed_path_followed(const ModeRuns& open, const OffPath& closed_off_m) {
       .modes = verdicts_by_mode(open, followed)};
 }
 
-/// Largest drop of the speed below u_d after u_d was first reached, m/s.
-std::optional<double> drop_mps(const ModeRun& run) { return run.metrics.speed_drop_mps; }
-
 /// True if `mode` has the smallest value or is within kAsGoodShare of it.
 template <class Value>
 bool is_best(const ModeRuns& runs, YawMode mode, Value value) {
-  const auto own = value(in_mode(runs, mode));
+  const auto own = value_of(in_mode(runs, mode), value);
   if (!own) return false;
   return all_modes(runs, [&](const ModeRun& run) {
-    const auto other = value(run);
+    const auto other = value_of(run, value);
     return !other || *own <= (1.0 + kAsGoodShare) * *other;
   });
 }
@@ -246,13 +239,14 @@ bool is_best(const ModeRuns& runs, YawMode mode, Value value) {
 std::string along(const char* where, const ModeRuns& runs) {
   return fmt::format(
       "{0}, finishing time: {1}; {0}, RMS cross-track error: {2}; {0}, speed drop: {3}", where,
-      by_mode(runs, "s", finish_s), by_mode(runs, "m", cross_track_m),
-      by_mode(runs, "m/s", drop_mps));
+      by_mode(runs, "s", &Metrics::finish_time_s), by_mode(runs, "m", &Metrics::cross_track_rms_m),
+      by_mode(runs, "m/s", &Metrics::speed_drop_mps));
 }
 
 Claim best_modes(const ModeRuns& points, const ModeRuns& path) {
   const auto best_for = [](const ModeRuns& runs, YawMode mode) {
-    return is_best(runs, mode, finish_s) && is_best(runs, mode, cross_track_m);
+    return is_best(runs, mode, &Metrics::finish_time_s) &&
+           is_best(runs, mode, &Metrics::cross_track_rms_m);
   };
   const bool at_waypoints = best_for(points, YawMode::kCombined);
   const bool along_line = best_for(path, YawMode::kCombined);
@@ -260,7 +254,7 @@ Claim best_modes(const ModeRuns& points, const ModeRuns& path) {
     return is_best(points, YawMode::kDifferential, value) &&
            is_best(path, YawMode::kDifferential, value);
   };
-  const bool speed = differential(drop_mps);
+  const bool speed = differential(&Metrics::speed_drop_mps);
   constexpr double percent = 100.0 * kAsGoodShare;
   return {
       .id = "C12",
@@ -277,7 +271,7 @@ Claim best_modes(const ModeRuns& points, const ModeRuns& path) {
                          "the polyline, it is {2}within {0:.0f} % of the best. {3}Differential "
                          "mode {4}. These are single runs; `awmr compare` gives intervals",
                          percent, at_waypoints ? "" : "not ", along_line ? "" : "not ",
-                         differential(cross_track_m)
+                         differential(&Metrics::cross_track_rms_m)
                              ? fmt::format("On both, differential mode is within {:.0f} % of the "
                                            "smallest RMS cross-track error. ",
                                            percent)

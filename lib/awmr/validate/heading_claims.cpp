@@ -27,8 +27,6 @@ constexpr double kReversalsPerSecond = 1.0;
 constexpr double kDrivenTauSpeed = 1.4;     ///< 35 % of four motors' thrust       [paper 6]
 constexpr double kYawRateMax_degps = 20.0;  ///< bound on the yaw rate in C13 [paper 6]
 
-std::optional<double> settling_s(const ModeRun& run) { return run.metrics.settling_time_s; }
-
 std::string why_heading_converges_or_not(const HeadingSetting& setting, const ModeRuns& runs,
                                          bool reproduced, bool none_over) {
   std::string why =
@@ -39,7 +37,7 @@ std::string why_heading_converges_or_not(const HeadingSetting& setting, const Mo
             "command in the modes with overshoot"
           : "with these actuator limits, the heading law takes longer than the criterion allows";
   const auto settled_s = [&](YawMode mode) {
-    return settling_s(in_mode(runs, mode)).value_or(setting.hold_s());
+    return in_mode(runs, mode).metrics.settling_time_s.value_or(setting.hold_s());
   };
   if (settled_s(YawMode::kSteering) > settled_s(YawMode::kDifferential) &&
       settled_s(YawMode::kSteering) > settled_s(YawMode::kCombined)) {
@@ -51,7 +49,6 @@ std::string why_heading_converges_or_not(const HeadingSetting& setting, const Mo
 }
 
 Claim heading_converges(const HeadingSetting& setting, const ModeRuns& runs) {
-  const auto overshoot = [](const ModeRun& run) { return run.metrics.overshoot_deg; };
   const auto fast = [&](const ModeRun& run) {
     const auto settled_s = run.metrics.settling_time_s;
     return settled_s && *settled_s <= setting.allowed_s(run.mode);
@@ -68,17 +65,15 @@ Claim heading_converges(const HeadingSetting& setting, const ModeRuns& runs) {
           "at 1 m/s, the heading follows steps to 30 and then -30 deg fast and without overshoot, "
           "in all modes",
       .reproduced = reproduced,
-      .figure = fmt::format("settling time: {}; overshoot: {}", by_mode(runs, "s", settling_s),
-                            by_mode(runs, "deg", overshoot)),
+      .figure = fmt::format("settling time: {}; overshoot: {}",
+                            by_mode(runs, "s", &Metrics::settling_time_s),
+                            by_mode(runs, "deg", &Metrics::overshoot_deg)),
       .tolerance = fmt::format(
           "fast: the settling time is at most {}. This is the time to turn {} deg at the mode's "
           "largest steady yaw rate, plus 4 (T1 + 2 T2): four time constants of each phase of the "
           "heading law with the paper's gains (C14). The heading is settled when its error stays "
           "within 2 % of the step (at least 0.5 deg). Without overshoot: at most {} deg",
-          by_mode(runs, "s",
-                  [&](const ModeRun& run) -> std::optional<double> {
-                    return setting.allowed_s(run.mode);
-                  }),
+          by_mode(runs, "s", [&](const ModeRun& run) { return setting.allowed_s(run.mode); }),
           kLargestStep_deg, kNoOvershoot_deg),
       .why = why_heading_converges_or_not(setting, runs, reproduced, none_over),
       .modes = verdicts_by_mode(
@@ -101,13 +96,7 @@ bool are_the_papers(const ModeGains& gains) {
 /// gains. If the checked gains are not the paper's, Claim::figure therefore has the result with the
 /// paper's gains as well.
 Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
-  const auto sideslip = [](const ModeRun& run) -> std::optional<double> {
-    return run.metrics.sideslip_max_deg;
-  };
-  const auto yaw_rate = [](const ModeRun& run) -> std::optional<double> {
-    return run.metrics.yaw_rate_max_degps;
-  };
-  const auto in = [&](YawMode mode) { return *sideslip(in_mode(runs, mode)); };
+  const auto in = [&](YawMode mode) { return in_mode(runs, mode).metrics.sideslip_max_deg; };
   const double differential = in(YawMode::kDifferential);
   const bool smallest =
       differential < in(YawMode::kSteering) && differential < in(YawMode::kCombined);
@@ -118,7 +107,8 @@ Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
           "differential mode",
       .reproduced = smallest,
       .figure = fmt::format("largest sideslip angle: {}; largest yaw rate: {}",
-                            by_mode(runs, "deg", sideslip), by_mode(runs, "deg/s", yaw_rate)),
+                            by_mode(runs, "deg", &Metrics::sideslip_max_deg),
+                            by_mode(runs, "deg/s", &Metrics::yaw_rate_max_degps)),
       .tolerance =
           "the largest sideslip angle in differential mode is below that of both other modes. "
           "Times with a speed of at most 0.05 m/s do not count",
@@ -134,7 +124,7 @@ Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
     const HeadingSetting paper{
         {setting.model, setting.plant, kPaperGains, setting.arithmetic, setting.control}};
     claim.figure += "; largest sideslip angle with the paper's gains: " +
-                    by_mode(paper.run("C6", kSimulated_deg), "deg", sideslip);
+                    by_mode(paper.run("C6", kSimulated_deg), "deg", &Metrics::sideslip_max_deg);
   }
   return claim;
 }
@@ -156,10 +146,8 @@ double reversals_per_second(const Model& model, const ModeRun& run) {
 }
 
 Claim no_chattering(const Model& model, const ModeRuns& runs) {
-  const auto rate = [&](const ModeRun& run) -> std::optional<double> {
-    return reversals_per_second(model, run);
-  };
-  const auto rests = [&](const ModeRun& run) { return *rate(run) <= kReversalsPerSecond; };
+  const auto rate = [&](const ModeRun& run) { return reversals_per_second(model, run); };
+  const auto rests = [&](const ModeRun& run) { return rate(run) <= kReversalsPerSecond; };
   const bool quiet = all_modes(runs, rests);
   return {.id = "C7",
           .statement = "the commands do not chatter (reverse rapidly)",
@@ -201,10 +189,7 @@ Claim yaw_rate_limited(const HeadingSetting& setting) {
           "with the constant thrust of the experiment (tau_speed = 1.4), the vehicle reaches "
           "headings of 30 and then 45 deg with yaw rates below 20 deg/s",
       .reproduced = everywhere,
-      .figure = "largest yaw rate: " + by_mode(runs, "deg/s",
-                                               [](const ModeRun& run) -> std::optional<double> {
-                                                 return run.metrics.yaw_rate_max_degps;
-                                               }),
+      .figure = "largest yaw rate: " + by_mode(runs, "deg/s", &Metrics::yaw_rate_max_degps),
       .tolerance =
           "in every mode, the largest yaw rate is below 20 deg/s and the heading settles after "
           "both steps. The simulation has no sensor noise, unlike the experiment",

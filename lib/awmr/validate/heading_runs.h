@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -23,13 +24,23 @@ inline constexpr double kLargestStep_deg = 60.0;               ///< the step fro
 /// Rounds to 1e-4, because further digits depend on rounding errors. + 0.0 changes -0 to 0.
 inline double to_figure(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
 
-/// Text of a value in each mode: "differential 0.1, steering 0.2, combined 0.3 UNIT", with "none"
-/// for a mode without the value. `value` computes it from a run.
+/// Value of a run. `value`: a member of Metrics, or a function of the run.
+template <class Value>
+std::optional<double> value_of(const ModeRun& run, Value value) {
+  if constexpr (std::is_member_object_pointer_v<Value>) {
+    return run.metrics.*value;
+  } else {
+    return value(run);
+  }
+}
+
+/// Text of value_of() in each mode: "differential 0.1, steering 0.2, combined 0.3 UNIT", with
+/// "none" for a mode without the value.
 template <class Value>
 std::string by_mode(const ModeRuns& runs, const std::string& unit, Value value) {
   std::string text;
   for (const ModeRun& run : runs) {
-    const std::optional<double> number = value(run);
+    const std::optional<double> number = value_of(run, value);
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name_of(run.mode),
                         number ? fmt::format("{:.4g}", to_figure(*number)) : "none");
   }

@@ -51,18 +51,16 @@ std::string why_it_converges(bool none_over, bool no_error) {
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs) {
   const double step_s = setting.hold_s();
   const auto excess = [](Interval range) { return std::max(0.0, range.hi - kSpeed_mps); };
-  const auto overshoot = [&](const ModeRun& run) -> std::optional<double> {
-    return excess(speed_range(run, 0.0, step_s));
-  };
-  const auto later = [&](const ModeRun& run) -> std::optional<double> {
+  const auto overshoot = [&](const ModeRun& run) { return excess(speed_range(run, 0.0, step_s)); };
+  const auto later = [&](const ModeRun& run) {
     return excess(speed_range(run, step_s, run.run.rows.back().t_s));
   };
-  const auto error = [](const ModeRun& run) -> std::optional<double> {
+  const auto error = [](const ModeRun& run) {
     return run.run.rows.back().state.u_mps - kSpeed_mps;
   };
   constexpr double kAccepted_mps = kNoSpeedError * kSpeed_mps;
-  const auto is_over = [&](const ModeRun& run) { return *overshoot(run) > kAccepted_mps; };
-  const auto is_right = [&](const ModeRun& run) { return std::abs(*error(run)) <= kAccepted_mps; };
+  const auto is_over = [&](const ModeRun& run) { return overshoot(run) > kAccepted_mps; };
+  const auto is_right = [&](const ModeRun& run) { return std::abs(error(run)) <= kAccepted_mps; };
   const bool none_over = all_modes(runs, [&](const ModeRun& run) { return !is_over(run); });
   const bool no_error = all_modes(runs, is_right);
   return {
@@ -109,7 +107,7 @@ std::string speed_drop_elsewhere(const HeadingSetting& setting) {
             heading_steps(kSimulated_deg,
                           {.hold_s = setting.hold_s(), .speed_mps = kSpeed_mps, .name = "C5"}));
     text += fmt::format("; with F' in [{}, {}]: {}", limits.lo, limits.hi,
-                        by_mode(runs, "m/s", [&](const ModeRun& run) -> std::optional<double> {
+                        by_mode(runs, "m/s", [&](const ModeRun& run) {
                           return speed_drop(run, setting.hold_s());
                         }));
   }
@@ -142,13 +140,11 @@ std::string why_speed_is_held_or_not(bool holds, bool saturates, bool others_dro
 
 Claim check_speed_held(const HeadingSetting& setting, const ModeRuns& runs) {
   const double step_s = setting.hold_s();
-  const auto drop = [&](const ModeRun& run) -> std::optional<double> {
-    return speed_drop(run, step_s);
-  };
+  const auto drop = [&](const ModeRun& run) { return speed_drop(run, step_s); };
   const ModeRun& differential = in_mode(runs, YawMode::kDifferential);
-  const bool holds = *drop(differential) <= kNoSpeedError * kSpeed_mps;
+  const bool holds = drop(differential) <= kNoSpeedError * kSpeed_mps;
   const auto slight = [&](YawMode mode) {
-    const double d = *drop(in_mode(runs, mode));
+    const double d = drop(in_mode(runs, mode));
     return d > kNoSpeedError * kSpeed_mps && d <= kSlightDrop * kSpeed_mps;
   };
   const bool others = slight(YawMode::kSteering) && slight(YawMode::kCombined);
