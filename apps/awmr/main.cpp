@@ -25,30 +25,16 @@ void describe(CLI::App& app) {
   app.get_formatter()->column_width(36);
 }
 
+/// Adds the commands in the order of the help.
 void add_commands(CLI::App& app, awmr::cli::Session& session) {
-  awmr::cli::add_init(app, session);
-  awmr::cli::add_check(app, session);
-  awmr::cli::add_run(app, session);
-  awmr::cli::add_identify(app, session);
-  awmr::cli::add_live(app, session);
-  awmr::cli::add_validate(app, session);
-  awmr::cli::add_tune(app, session);
-  awmr::cli::add_simulate(app, session);
-  awmr::cli::add_compare(app, session);
-  awmr::cli::add_merge(app, session);
-  awmr::cli::add_emit(app, session);
-  awmr::cli::add_export(app, session);
-  awmr::cli::add_pil(app, session);
-  awmr::cli::add_report(app, session);
-  awmr::cli::add_suggest(app, session);
-  awmr::cli::add_recover(app, session);
-  awmr::cli::add_map(app, session);
-  awmr::cli::add_log(app, session);
-  awmr::cli::add_compass(app, session);
-  awmr::cli::add_explain(app, session);
-  awmr::cli::add_schema(app, session);
-  awmr::cli::add_completion(app, session);
-  awmr::cli::add_man(app, session);
+  using namespace awmr::cli;
+  for (const auto add :
+       {add_init,    add_check,    add_run,     add_identify,   add_live, add_validate,
+        add_tune,    add_simulate, add_compare, add_merge,      add_emit, add_export,
+        add_pil,     add_report,   add_suggest, add_recover,    add_map,  add_log,
+        add_compass, add_explain,  add_schema,  add_completion, add_man}) {
+    add(app, session);
+  }
 }
 
 /// Prints the help if it was requested, else the error of the command line. Returns the exit code.
