@@ -9,8 +9,9 @@
 namespace awmr::testing {
 namespace {
 
-std::vector<Point> arc(double x_m, double y_m, double radius_m, double angle_rad, int count) {
-  std::vector<Point> points;
+std::vector<Position<double>> arc(double x_m, double y_m, double radius_m, double angle_rad,
+                                  int count) {
+  std::vector<Position<double>> points;
   for (int i = 0; i < count; ++i) {
     const double a = angle_rad * i / count;
     points.push_back({x_m + radius_m * std::cos(a), y_m + radius_m * std::sin(a)});
@@ -38,7 +39,7 @@ TEST(CircleFit, RecoversAQuarterArc) {
 }
 
 TEST(CircleFit, MeasuresTheDeviationOfOnePointOut) {
-  std::vector<Point> points = arc(0.0, 0.0, 1.0, 2.0 * std::numbers::pi, 1000);
+  std::vector<Position<double>> points = arc(0.0, 0.0, 1.0, 2.0 * std::numbers::pi, 1000);
   points[0].x_m += 0.1;
   const auto circle = fit_circle(points);
   ASSERT_TRUE(circle);
@@ -48,9 +49,10 @@ TEST(CircleFit, MeasuresTheDeviationOfOnePointOut) {
 }
 
 TEST(CircleFit, RefusesALineAndTooFewPoints) {
-  EXPECT_FALSE(fit_circle(std::vector<Point>{{0.0, 0.0}, {1.0, 1.0}}));
-  EXPECT_FALSE(fit_circle(std::vector<Point>{{0.0, 0.0}, {1.0, 2.0}, {2.0, 4.0}, {3.0, 6.0}}));
-  EXPECT_FALSE(fit_circle(std::vector<Point>(10, Point{1.0, 1.0})));
+  EXPECT_FALSE(fit_circle(std::vector<Position<double>>{{0.0, 0.0}, {1.0, 1.0}}));
+  EXPECT_FALSE(
+      fit_circle(std::vector<Position<double>>{{0.0, 0.0}, {1.0, 2.0}, {2.0, 4.0}, {3.0, 6.0}}));
+  EXPECT_FALSE(fit_circle(std::vector<Position<double>>(10, Position<double>{1.0, 1.0})));
 }
 
 }  // namespace

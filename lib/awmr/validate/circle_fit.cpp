@@ -5,11 +5,11 @@
 
 namespace awmr {
 
-std::optional<Circle> fit_circle(std::span<const Point> points) {
+std::optional<Circle> fit_circle(std::span<const Position<double>> points) {
   if (points.size() < 3) return std::nullopt;
   const double n = static_cast<double>(points.size());
-  Point mean;
-  for (const Point& p : points) {
+  Position<double> mean{};
+  for (const Position<double>& p : points) {
     mean.x_m += p.x_m / n;
     mean.y_m += p.y_m / n;
   }
@@ -20,7 +20,7 @@ std::optional<Circle> fit_circle(std::span<const Point> points) {
   //   [Sxy Syy] [cy] = - [Syz]    and  R^2 = cx^2 + cy^2 + (Sxx + Syy)/n.
   //                    2
   double sxx = 0.0, sxy = 0.0, syy = 0.0, sxz = 0.0, syz = 0.0;
-  for (const Point& p : points) {
+  for (const Position<double>& p : points) {
     const double x = p.x_m - mean.x_m;
     const double y = p.y_m - mean.y_m;
     const double z = x * x + y * y;
@@ -38,7 +38,7 @@ std::optional<Circle> fit_circle(std::span<const Point> points) {
   Circle circle{.x_m = mean.x_m + cx,
                 .y_m = mean.y_m + cy,
                 .radius_m = std::sqrt(cx * cx + cy * cy + (sxx + syy) / n)};
-  for (const Point& p : points) {
+  for (const Position<double>& p : points) {
     const double distance = std::hypot(p.x_m - circle.x_m, p.y_m - circle.y_m);
     circle.deviation_m = std::max(circle.deviation_m, std::abs(distance - circle.radius_m));
   }

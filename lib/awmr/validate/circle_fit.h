@@ -4,12 +4,9 @@
 #include <optional>
 #include <span>
 
-namespace awmr {
+#include "awmr/control/guidance/position.h"
 
-struct Point {
-  double x_m = 0.0;
-  double y_m = 0.0;
-};
+namespace awmr {
 
 struct Circle {
   double x_m = 0.0;
@@ -24,6 +21,6 @@ struct Circle {
 ///   x^2 + y^2 = 2 cx x + 2 cy y + (R^2 - cx^2 - cy^2)
 /// The fit is exact for points on a circle. For short arcs with noise, the fitted radius is too
 /// small. Empty for fewer than three points, or points on a line.
-std::optional<Circle> fit_circle(std::span<const Point> points);
+std::optional<Circle> fit_circle(std::span<const Position<double>> points);
 
 }  // namespace awmr

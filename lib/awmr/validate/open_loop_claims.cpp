@@ -63,10 +63,10 @@ struct Turn {
 
 /// Points of the last full turn of the run. Empty if the run has fewer than two full turns, because
 /// the first turn is a transient.
-std::vector<Point> last_turn(const Run& run) {
+std::vector<Position<double>> last_turn(const Run& run) {
   const double end_rad = run.rows.back().state.psi_rad;
   if (std::abs(end_rad) < 4.0 * std::numbers::pi) return {};
-  std::vector<Point> points;
+  std::vector<Position<double>> points;
   // Clang 14 does not compile std::views::reverse of GCC 12's library.
   // NOLINTNEXTLINE(modernize-loop-convert)
   for (auto row = run.rows.rbegin(); row != run.rows.rend(); ++row) {
@@ -113,10 +113,6 @@ std::string delivered_moments(const Model& model, const Plant<double>& plant) {
   }
   return text;
 }
-
-}  // namespace
-
-namespace {
 
 std::string why_not_settled(const Model& model) {
   return model.vehicle.driven_wheels() * model.vehicle.wheel_force.hi < kFullThrust
