@@ -29,14 +29,6 @@ double largest_yaw_rate_radps(const Plant<double>& plant, const AllocationLimits
 
 }  // namespace
 
-Run run_or_failed(const Model& model, const ModeGains& gains, const Scenario& scenario,
-                  YawMode mode) {
-  Run failed;
-  failed.rows.emplace_back();
-  failed.end = RunEnd::kFailed;
-  return simulate(model, gains.in(mode), scenario, mode).value_or(std::move(failed));
-}
-
 ModeRuns ClaimSetting::run(const Scenario& scenario) const {
   return std::move(run_all({this, 1}, scenario).front());
 }

@@ -34,10 +34,6 @@ struct ModeRun {
 };
 using ModeRuns = std::array<ModeRun, std::size(kYawModes)>;
 
-/// Calls simulate(). If simulate() returns an error, returns a run of one row that ends as kFailed,
-/// so that the claim is not reproduced.
-Run run_or_failed(const Model& model, const ModeGains& gains, const Scenario& scenario,
-                  YawMode mode);
 /// Common inputs of the claims' simulations.
 struct ClaimSetting {
   const Model& model;

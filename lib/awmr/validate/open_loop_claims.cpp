@@ -28,6 +28,16 @@ constexpr double kMeasuredTolerance = 0.05;
 /// divided by the radius.
 constexpr double kCircleTolerance = 0.01;
 
+/// Calls simulate(). If simulate() returns an error, returns a run of one row that ends as kFailed,
+/// so that the claim is not reproduced.
+Run run_or_failed(const Model& model, const ModeGains& gains, const Scenario& scenario,
+                  YawMode mode) {
+  Run failed;
+  failed.rows.emplace_back();
+  failed.end = RunEnd::kFailed;
+  return simulate(model, gains.in(mode), scenario, mode).value_or(std::move(failed));
+}
+
 Run run_open_loop(const Model& model, YawMode mode, OpenLoop forces, double duration_s,
                   const ControlOptions& control) {
   const Scenario scenario{.name = "open loop",
