@@ -164,21 +164,12 @@ int samples_in(const WindowMeans& windows) {
   return std::accumulate(windows.rows.begin(), windows.rows.end(), 0);
 }
 
-/// A channel of the logged drive, its prediction, and the distances of the predicted drives.
-struct Compared {
-  DriveChannel channel;
-  WindowMeans measured;
-  PredictedBand predicted;
-  std::vector<double> largest;  ///< for each predicted drive, its largest distance in this channel
-  double usual = 0.0;           ///< 95 % quantile of `largest` over the predicted drives
-};
-
-Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> draws,
-                         double duration_s) {
-  Compared one{.channel = channel,
-               .measured = means_of(channel, duration_s),
-               .predicted = {},
-               .largest = {}};
+ComparedChannel compare_channel(const DriveChannel& channel, std::vector<WindowMeans> draws,
+                                double duration_s) {
+  ComparedChannel one{.channel = channel,
+                      .measured = means_of(channel, duration_s),
+                      .predicted = {},
+                      .largest = {}};
   for (WindowMeans& draw : draws) {
     draw.mean.resize(one.measured.mean.size());
     draw.rows.resize(one.measured.rows.size());
@@ -191,11 +182,12 @@ Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> d
 }
 
 /// Returns for each predicted drive the largest ratio of distance to usual distance
-/// (Compared::largest/Compared::usual) over the channels. The ratio makes channels with different
+/// (ComparedChannel::largest/usual) over the channels. The ratio makes channels with different
 /// distributions comparable.
-std::vector<double> factors_of_draws(const std::vector<Compared>& channels, std::size_t draws) {
+std::vector<double> factors_of_draws(const std::vector<ComparedChannel>& channels,
+                                     std::size_t draws) {
   std::vector<double> factors(draws);
-  for (const Compared& one : channels) {
+  for (const ComparedChannel& one : channels) {
     for (std::size_t i = 0; i < draws; ++i) {
       factors[i] = std::max(factors[i], one.largest[i] / one.usual);
     }
@@ -203,14 +195,13 @@ std::vector<double> factors_of_draws(const std::vector<Compared>& channels, std:
   return factors;
 }
 
-ChannelAcceptance evaluate(const Compared& one, double factor) {
-  ChannelAcceptance result{
-      .channel = one.channel.name,
-      .unit = one.channel.unit,
-      .samples = std::accumulate(one.measured.rows.begin(), one.measured.rows.end(), 0),
-      .noise = one.channel.noise,
-      .noise_from_log = one.channel.noise_from_log,
-      .allowed = factor * one.usual};
+ChannelAcceptance evaluate(const ComparedChannel& one, double factor) {
+  ChannelAcceptance result{.channel = one.channel.name,
+                           .unit = one.channel.unit,
+                           .samples = samples_in(one.measured),
+                           .noise = one.channel.noise,
+                           .noise_from_log = one.channel.noise_from_log,
+                           .allowed = factor * one.usual};
   const std::vector<double> all = distances(one.measured, one.predicted);
   const auto farthest = std::max_element(all.begin(), all.end());
   const auto w = static_cast<std::size_t>(farthest - all.begin());
@@ -230,9 +221,9 @@ bool is_given(const std::string& channel, const SensorQuality& sensors) {
   return sensors.speed_mps.has_value();
 }
 
-std::vector<Compared> compare(const std::vector<DriveChannel>& channels,
-                              const std::vector<PredictedDrive>& drives, double duration_s) {
-  std::vector<Compared> all;
+std::vector<ComparedChannel> compare(const std::vector<DriveChannel>& channels,
+                                     const std::vector<PredictedDrive>& drives, double duration_s) {
+  std::vector<ComparedChannel> all;
   for (std::size_t c = 0; c < channels.size(); ++c) {
     std::vector<WindowMeans> draws;
     for (const PredictedDrive& drive : drives) draws.push_back(drive.windows[c]);
@@ -244,11 +235,11 @@ std::vector<Compared> compare(const std::vector<DriveChannel>& channels,
 
 /// Compares each channel with its allowed distance, and computes the p-value from the rank of the
 /// logged drive among the predicted drives.
-void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
+void take_verdict(const std::vector<ComparedChannel>& channels, Acceptance& result) {
   const std::vector<double> factors = factors_of_draws(channels, at(result.draws));
   const double allowed = rank_quantile(factors, kLevel);
   double reached = 0.0;
-  for (const Compared& one : channels) {
+  for (const ComparedChannel& one : channels) {
     result.channels.push_back(evaluate(one, allowed));
     reached = std::max(reached, result.channels.back().distance / one.usual);
   }
@@ -258,14 +249,6 @@ void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
                                     [&](double factor) { return factor >= reached; });
   result.p_value = static_cast<double>(as_far + 1) / static_cast<double>(factors.size() + 1);
   result.inside = result.p_value > 1.0 - kLevel;
-}
-
-std::vector<EvidenceChannel> evidence_of(const std::vector<Compared>& channels) {
-  std::vector<EvidenceChannel> evidence;
-  for (const Compared& one : channels) {
-    evidence.push_back({&one.channel, &one.measured, &one.predicted});
-  }
-  return evidence;
 }
 
 Result<LoggedDrive> logged_drive(const DrivingLog& log, const Model& model,
@@ -316,11 +299,12 @@ Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model, const
                                    "at least {:g} s of the scenario",
                                    result.duration_s, drive.scenario.name, kShortest_s));
   }
-  const std::vector<Compared> channels = compare(drive.channels, predicted, result.duration_s);
+  const std::vector<ComparedChannel> channels =
+      compare(drive.channels, predicted, result.duration_s);
   take_verdict(channels, result);
   if (!result.inside) {
-    result.hypotheses = fault_hypotheses(model, controller, drive.scenario, options,
-                                         result.duration_s, evidence_of(channels));
+    result.hypotheses =
+        fault_hypotheses(model, controller, drive.scenario, options, result.duration_s, channels);
   }
   return result;
 }

@@ -133,7 +133,7 @@ struct Search {
   Scenario scenario;  ///< the scenario of the drive without noise
   const AcceptanceOptions& options;
   double duration_s;
-  const std::vector<EvidenceChannel>& evidence;
+  const std::vector<ComparedChannel>& channels;
 
   /// Mean over the windows of the squared distance between the drive and the run of the changed
   /// vehicle, summed over channels. The largest double if the run fails.
@@ -148,13 +148,13 @@ struct Search {
                              {.sample_time_s = sample_s, .substeps = {}, .seed = options.seed});
     if (run.end == RunEnd::kFailed) return kNever;
     double sum = 0.0;
-    for (const EvidenceChannel& one : evidence) {
-      const WindowMeans windows = means_of(*one.channel, run, sample_s, duration_s, nullptr);
+    for (const ComparedChannel& one : channels) {
+      const WindowMeans windows = means_of(one.channel, run, sample_s, duration_s, nullptr);
       for (std::size_t w = 0; w < windows.mean.size(); ++w) {
         if (windows.rows[w] == 0) continue;
-        const double apart = one.measured->mean[w] - windows.mean[w];
-        sum += std::pow(apart / one.predicted->spread[w], 2) /
-               static_cast<double>(windows.mean.size());
+        const double apart = one.measured.mean[w] - windows.mean[w];
+        sum +=
+            std::pow(apart / one.predicted.spread[w], 2) / static_cast<double>(windows.mean.size());
       }
     }
     return std::isfinite(sum) ? sum : kNever;
@@ -190,8 +190,8 @@ std::vector<FaultHypothesis> fault_hypotheses(const Model& model,
                                               const Controller<double>& controller,
                                               const Scenario& scenario,
                                               const AcceptanceOptions& options, double duration_s,
-                                              const std::vector<EvidenceChannel>& evidence) {
-  const Search search{model, controller, without_noise(scenario), options, duration_s, evidence};
+                                              const std::vector<ComparedChannel>& channels) {
+  const Search search{model, controller, without_noise(scenario), options, duration_s, channels};
   const std::vector<Change> changes = changes_of(model);
   const double unchanged = search.distance(changes.front(), changes.front().none);
   std::vector<FaultHypothesis> hypotheses(changes.size());

@@ -16,11 +16,13 @@ struct PredictedBand {
   std::vector<double> spread;  ///< standard deviation, with a small lower bound > 0
 };
 
-/// A channel of the drive, measured and predicted.
-struct EvidenceChannel {
-  const DriveChannel* channel;
-  const WindowMeans* measured;
-  const PredictedBand* predicted;
+/// A channel of the logged drive, its prediction, and the distances of the predicted drives.
+struct ComparedChannel {
+  DriveChannel channel;
+  WindowMeans measured;
+  PredictedBand predicted;
+  std::vector<double> largest;  ///< for each predicted drive, its largest distance in this channel
+  double usual = 0.0;           ///< 95 % quantile of `largest` over the predicted drives
 };
 
 /// Tries each fault hypothesis. It changes a parameter (except exponents), the force or lag of the
@@ -32,6 +34,6 @@ std::vector<FaultHypothesis> fault_hypotheses(const Model& model,
                                               const Controller<double>& controller,
                                               const Scenario& scenario,
                                               const AcceptanceOptions& options, double duration_s,
-                                              const std::vector<EvidenceChannel>& evidence);
+                                              const std::vector<ComparedChannel>& channels);
 
 }  // namespace awmr
