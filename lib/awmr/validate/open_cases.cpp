@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
-#include <functional>
 #include <map>
-#include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "awmr/core/gravity.h"
@@ -61,31 +59,28 @@ ClaimCase with_result(ClaimCase open, bool reproduced) {
   return open;
 }
 
-/// Settings of a case as numbers.
-using Key = std::tuple<int, double, double, double, int>;
-/// A setting that the paper leaves open.
-struct Setting {
-  std::string_view name;
-  /// Sets this setting to a fixed value, so that cases that differ only in this setting become
-  /// equal.
-  std::function<void(ClaimCase&)> forget;
-};
+/// The settings that the paper leaves open.
+constexpr std::array kSettings{"allocation", "wheel_force", "mass_factor", "split"};
+/// Values of these settings in a case, in the same order.
+using Key = std::array<std::pair<double, double>, kSettings.size()>;
 
 Key key_of(const ClaimCase& open) {
-  return {static_cast<int>(open.allocation), open.wheel_force.lo, open.wheel_force.hi,
-          open.mass_factor, static_cast<int>(open.split)};
+  return {{{static_cast<double>(open.allocation), 0.0},
+           {open.wheel_force.lo, open.wheel_force.hi},
+           {open.mass_factor, 0.0},
+           {static_cast<double>(open.split), 0.0}}};
 }
 
-/// Returns two numbers: in how many combinations of all settings except this one the verdict
-/// depends on this setting, and how many such combinations there are.
-std::pair<int, int> places_decided(const std::vector<ClaimCase>& cases, const Setting& setting) {
+/// Returns two numbers: in how many combinations of all settings except `setting` (an index in
+/// kSettings) the verdict depends on this setting, and how many such combinations there are.
+std::pair<int, int> places_decided(const std::vector<ClaimCase>& cases, std::size_t setting) {
   // For each combination of the other settings, two flags: whether a case reproduces the claim, and
   // whether a case does not.
   std::map<Key, std::pair<bool, bool>> places;
   for (const ClaimCase& open : cases) {
-    ClaimCase others = open;
-    setting.forget(others);
-    auto& [holds, fails] = places[key_of(others)];
+    Key others = key_of(open);
+    others[setting] = {};
+    auto& [holds, fails] = places[others];
     (open.reproduced ? holds : fails) = true;
   }
   const auto decided = std::count_if(places.begin(), places.end(), [](const auto& place) {
@@ -147,20 +142,15 @@ void add_open_cases(const Model& model, const std::optional<ModeGains>& gains,
 }
 
 std::string decisive_settings(const std::vector<ClaimCase>& cases) {
-  const Setting settings[] = {
-      {"allocation", [](ClaimCase& c) { c.allocation = AllocationForm::kExact; }},
-      {"wheel_force", [](ClaimCase& c) { c.wheel_force = {}; }},
-      {"mass_factor", [](ClaimCase& c) { c.mass_factor = 1.0; }},
-      {"split", [](ClaimCase& c) { c.split = CombinedSplit::kRedistribute; }}};
-  std::vector<std::tuple<double, std::string>> decisive;
-  for (const Setting& setting : settings) {
+  std::vector<std::pair<double, std::string>> decisive;
+  for (std::size_t setting = 0; setting < kSettings.size(); ++setting) {
     const auto [decided, places] = places_decided(cases, setting);
     if (decided == 0) continue;
     decisive.emplace_back(static_cast<double>(decided) / places,
-                          fmt::format("{} ({} of {})", setting.name, decided, places));
+                          fmt::format("{} ({} of {})", kSettings[setting], decided, places));
   }
   std::stable_sort(decisive.begin(), decisive.end(),
-                   [](const auto& a, const auto& b) { return std::get<0>(a) > std::get<0>(b); });
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text;
   for (const auto& [share, words] : decisive) text += (text.empty() ? "" : ", ") + words;
   return text;
