@@ -40,11 +40,6 @@ std::optional<std::string> unknown_option(const CLI::App& command) {
 
 }  // namespace
 
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
-  const std::string near = nearest(word, names);
-  return near.empty() ? near : fmt::format("; did you mean '{}'?", near);
-}
-
 std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error, int argc,
                              char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";

@@ -3,13 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
-#include <string_view>
-#include <vector>
 
 namespace awmr::cli {
-
-/// Returns "; did you mean 'NAME'?" with the closest name; empty if none is close.
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
 /// Describes an error of the command line: CLI11's message, the unknown command or option, and the
 /// known name that is closest to it. Precondition: `app` is unchanged since the parse that failed.

@@ -137,7 +137,10 @@ void add_identify(CLI::App& app, Session& session) {
            "Driving log: CSV, or another format that awmr map reads; may be repeated");
   add_fit_options(*sub, *words);
   add_log_options(*sub, words->command);
-  add_part_options(*sub, words->command.trials.options, words->excluded);
+  TrialOptions& reading = words->command.trials.options;
+  sub->add_option("--from", reading.used_s.lo, "Use each log from this time on, s, as in its t_s")
+      ->check(within(-kMaxTime_s, kMaxTime_s));
+  add_end_options(*sub, reading, words->excluded);
   add_reading_options(*sub, *words);
   add_output(*sub, words->command.output, "model.json to write");
 }

@@ -82,12 +82,6 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
       ->check(within(1, 1024));
 }
 
-void add_part_options(CLI::App& sub, TrialOptions& trials, std::vector<std::string>& excluded) {
-  sub.add_option("--from", trials.used_s.lo, "Use each log from this time on, s, as in its t_s")
-      ->check(within(-kMaxTime_s, kMaxTime_s));
-  add_end_options(sub, trials, excluded);
-}
-
 void add_end_options(CLI::App& sub, TrialOptions& trials, std::vector<std::string>& excluded) {
   sub.add_option("--until", trials.used_s.hi, "Use each log up to this time, s")
       ->check(within(-kMaxTime_s, kMaxTime_s));

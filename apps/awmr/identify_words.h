@@ -31,8 +31,6 @@ void add_table_files(CLI::App& sub, IdentifyCommand& command);
 void add_fit_options(CLI::App& sub, IdentifyWords& words);
 /// Adds the options of log fits: `--steady-from-log` to `--threads`.
 void add_log_options(CLI::App& sub, IdentifyCommand& command);
-/// Adds `--from`, `--until` and `--exclude`.
-void add_part_options(CLI::App& sub, TrialOptions& trials, std::vector<std::string>& excluded);
 /// Adds `--until` and `--exclude`.
 void add_end_options(CLI::App& sub, TrialOptions& trials, std::vector<std::string>& excluded);
 /// Adds the options for reading files: `--as-is`, `--prefer`, `--column`, `--columns-file`.

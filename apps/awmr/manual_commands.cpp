@@ -7,6 +7,7 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
+#include "awmr/core/nearest.h"
 #include "command_info.h"
 #include "commands.h"
 #include "option_values.h"

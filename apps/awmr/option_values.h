@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "awmr/core/name_table.h"
-#include "command_line.h"
+#include "awmr/core/nearest.h"
 
 namespace awmr::cli {
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "awmr/core/option_text.h"
+#include "style.h"
 
 namespace awmr::cli {
 namespace {
@@ -19,11 +20,6 @@ std::atomic<bool> drawn_on_terminal = true;
 std::atomic<bool> progress_in_lines = true;
 /// Working object whose progress line is on the terminal; null if there is none.
 std::atomic<const Working*> seen = nullptr;
-
-bool is_terminal() {
-  const char* term = std::getenv("TERM");
-  return ::isatty(STDERR_FILENO) == 1 && (term == nullptr || std::string_view(term) != "dumb");
-}
 
 std::string duration_text(double seconds) {
   return seconds < 99.5 ? fmt::format("{:.0f} s", seconds)
@@ -37,8 +33,8 @@ void show_progress(ProgressManner manner) {
   progress_in_lines = manner.in_lines;
 }
 
-bool draws_progress() { return drawn_on_terminal && is_terminal(); }
-bool prints_progress_lines() { return progress_in_lines && !is_terminal(); }
+bool draws_progress() { return drawn_on_terminal && is_terminal(stderr); }
+bool prints_progress_lines() { return progress_in_lines && !is_terminal(stderr); }
 
 void print_notice(std::string_view text) {
   if (!progress_in_lines) return;

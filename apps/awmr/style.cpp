@@ -7,12 +7,15 @@
 
 namespace awmr::cli {
 
+bool is_terminal(std::FILE* stream) {
+  const char* term = std::getenv("TERM");
+  return ::isatty(::fileno(stream)) == 1 && (term == nullptr || std::string_view(term) != "dumb");
+}
+
 Style::Style(std::FILE* stream) {
   const char* no_colour = std::getenv("NO_COLOR");
-  const char* term = std::getenv("TERM");
   const bool unwanted = no_colour != nullptr && *no_colour != '\0';
-  const bool dumb = term != nullptr && std::string_view(term) == "dumb";
-  on_ = !unwanted && !dumb && ::isatty(::fileno(stream)) == 1;
+  on_ = !unwanted && is_terminal(stream);
 }
 
 std::string Style::in(std::string_view code, std::string_view text) const {

@@ -7,9 +7,11 @@
 
 namespace awmr::cli {
 
-/// Adds terminal colours to text for a stream. Leaves the text unchanged in three cases: the stream
-/// is not a terminal, the environment variable NO_COLOR is not empty [no-color.org], or TERM is
-/// "dumb".
+/// True if the stream is a terminal that can move its cursor and show colours: TERM is not "dumb".
+bool is_terminal(std::FILE* stream);
+
+/// Adds terminal colours to text for a stream. Leaves the text unchanged if is_terminal() is false,
+/// or if the environment variable NO_COLOR is not empty [no-color.org].
 class Style {
  public:
   explicit Style(std::FILE* stream);

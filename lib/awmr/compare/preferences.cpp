@@ -36,8 +36,7 @@ std::vector<std::string_view> weighable_metrics() {
 Status check_metric(std::string_view name, const std::string& place) {
   const std::vector<std::string_view> known = weighable_metrics();
   if (std::find(known.begin(), known.end(), name) != known.end()) return {};
-  const std::string near = nearest(name, std::vector<std::string>(known.begin(), known.end()));
-  const std::string hint = near.empty() ? "" : fmt::format("; did you mean '{}'?", near);
+  const std::string hint = did_you_mean(name, std::vector<std::string>(known.begin(), known.end()));
   return input_error(ErrorCode::kUnknownName, place,
                      fmt::format("'{}' is not a metric that ranks modes{}; available: {}", name,
                                  hint, fmt::join(known, ", ")));

@@ -11,4 +11,7 @@ namespace awmr {
 /// exceeds both 1 and a third of the length of `word`. Texts of more than 100 bytes are ignored.
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
+/// Returns "; did you mean 'NAME'?" with the nearest candidate; empty if there is none.
+std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
+
 }  // namespace awmr
