@@ -100,10 +100,11 @@ void add_runs(CLI::App& sub, RecoverCommand& command) {
 
 void add_estimator(CLI::App& sub, RecoverWords& words) {
   RecoverOptions& options = words.command.recover;
-  add_choice(sub, "--plan", options.plan, kPlans,
-             "Trials to simulate. tables (default): tables like those that the model was fitted to; "
-             "curve: the same tables with a coast-down curve in place of the stop times; log: "
-             "only a driving log");
+  add_choice(
+      sub, "--plan", options.plan, kPlans,
+      "Trials to simulate. tables (default): tables like those that the model was fitted to; "
+      "curve: the same tables with a coast-down curve in place of the stop times; log: "
+      "only a driving log");
   add_choice(sub, "--method", options.identify.method, kMethodNames,
              "Estimator under test, as in identify");
   add_choice(sub, "--noise", options.identify.noise, kErrorModelNames,

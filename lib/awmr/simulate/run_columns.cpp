@@ -23,7 +23,7 @@ struct Column {
 };
 
 /// All columns of run.csv, in their order.
-constexpr Column kColumns[] = {
+constexpr Column kRunColumns[] = {
     {"t_s", [](const RunRow& r) { return r.t_s; }, always},
     {"x_m", [](const RunRow& r) { return r.state.x_m; }, always},
     {"y_m", [](const RunRow& r) { return r.state.y_m; }, always},
@@ -60,14 +60,14 @@ constexpr Column kColumns[] = {
 }  // namespace
 
 bool is_finite(const RunRow& row) {
-  return std::all_of(std::begin(kColumns), std::end(kColumns),
+  return std::all_of(std::begin(kRunColumns), std::end(kRunColumns),
                      [&](const Column& column) { return std::isfinite(column.value(row)); });
 }
 
 std::vector<std::pair<std::string_view, double>> named_values(const RunRow& row,
                                                               const Scenario& scenario) {
   std::vector<std::pair<std::string_view, double>> named;
-  for (const Column& column : kColumns) {
+  for (const Column& column : kRunColumns) {
     if (column.is_in(scenario)) named.emplace_back(column.name, column.value(row));
   }
   return named;

@@ -12,6 +12,7 @@
 #include "awmr/control/heading_lqi.h"
 #include "awmr/control/yaw_mode.h"
 #include "awmr/model/allocation_form.h"
+#include "awmr/model/gains.h"
 #include "awmr/model/parameters.h"
 
 namespace awmr {
