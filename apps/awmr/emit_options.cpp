@@ -23,8 +23,8 @@ void add_resistance_options(CLI::App& command, EmitOptions& options) {
       .add_option("--table-error", options.table_error,
                   "Largest permitted error of a resistance table, as a fraction of the resistance. "
                   "Where the resistance is below a tenth of the largest force (yaw: moment): as a "
-                  "fraction of this tenth. If no table is accurate enough, emit fails [5e-4, or "
-                  "the error of the most accurate table]")
+                  "fraction of this tenth. If you give a value and no table meets it, emit fails "
+                  "[5e-4; if no table meets this, the most accurate table and a warning]")
       ->check(within(1e-7, 0.1));
 }
 

@@ -22,8 +22,8 @@ inline constexpr VehicleSteps<double> kOneVehicleSteps = {
 /// A single simulated vehicle that an external controller drives.
 class Physics {
  public:
-  /// `force_max`: largest motor command with a full battery, divided by F_max, including the dead
-  /// zone (upper end of Vehicle::wheel_force).
+  /// `force_max`: largest motor command with a full battery, divided by F_max: the upper end of
+  /// Vehicle::wheel_force. The wheel force at this command is smaller by the dead zone F'0.
   Physics(const Plant<double>& plant, double force_max, const Scenario& scenario,
           const SimulateOptions& options);
 
@@ -82,7 +82,7 @@ double steps_of_run(const Plant<double>& plant, const Scenario& scenario, double
 VehicleSetup vehicle_setup(const Scenario& scenario, double sample_time_s);
 
 /// Sets up the vehicle of the run with the index `run`, in the scenario's initial state.
-/// `force_max`: largest motor command divided by F_max, including the dead zone.
+/// `force_max`: largest motor command divided by F_max, from which no dead zone is subtracted.
 template <class Row>
 void set_up_vehicle(const Plant<double>& plant, double force_max, const Scenario& scenario,
                     double sample_time_s, int substeps, std::size_t run, Vehicles<Row>& v) {
