@@ -84,8 +84,9 @@ Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& 
       if (row == part.size()) {
         return input_error(
             ErrorCode::kStaleResult, "",
-            fmt::format("part {} of {} has too few rows: it has lost rows, or another part "
-                        "has rows twice; run all parts again",
+            fmt::format("part {} of {} has fewer rows for each of its runs or samples than another "
+                        "part: it has lost rows, or the other part has rows twice; run all parts "
+                        "again",
                         item % parts.size() + 1, parts.size()));
       }
       all.push_back(part[row++]);

@@ -158,8 +158,8 @@ struct AutopilotParameters {
   EmittedTable surge;                                  ///< table of g1; empty for kPowf
   EmittedTable yaw;                                    ///< table of g3; empty for kPowf
   ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
-  double table_error = 0.0;               ///< bound on the relative error (default kTableError);
-                                          ///< larger if a table has a larger error
+  double table_error = 0.0;               ///< bound on the relative error of both tables: that of
+                                          ///< EmitOptions, or the error of a table that exceeds it
   float sample_time_s = 0.0F;             ///< AWMR_SAMPLE_TIME_S, s
   float route_speed_mps = 0.0F;           ///< AWMR_ROUTE_SPEED_MPS, m/s
   double steady_error_rad = 0.0;          ///< heading error, rad, that remains if the forces of

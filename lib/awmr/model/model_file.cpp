@@ -327,7 +327,7 @@ std::vector<Fault> self_contradictions(const Model& model) {
   return faults;
 }
 
-/// Parses a model. `as_is`: the vehicle may be implausible.
+/// Parses a model. `as_is`: accepts a vehicle with implausible values.
 Result<Model> parse_model(std::string_view text, const std::string& file, bool as_is) {
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_text(text, file));
   std::vector<Fault> faults;

@@ -138,7 +138,8 @@ State<T> with_friction(const FrictionRates<T>& friction, const Sliding<ValueOf<T
 }
 
 /// Fraction of a step after which the speed is 0, if it changes linearly from `from` to `to`. 1 if
-/// the speed does not pass 0, or starts at 0. `way`: direction of sliding in this step.
+/// the speed does not pass 0, or starts at 0. `way`: direction of sliding, from slides(). If it is
+/// 0, the result is 1 too: a motion (surge or yaw) without friction passes 0 without a stop.
 template <class T>
 T share_until_rest(const ValueOf<T>& way, const T& from, const T& to) {
   using math::select;

@@ -226,7 +226,7 @@ double position_variance_m2(const DrivingLog& log) {
 /// speed, as a robust ratio over all windows. Noise makes the distance longer: with the standard
 /// deviation sigma of each coordinate, the expected square is true distance^2 + 4 sigma^2. The
 /// function therefore subtracts 4 sigma^2 from the square. Empty if the median distance in the
-/// faster half of the windows is below twice that of noise alone.
+/// faster half of the windows is below twice the distance that noise alone would give.
 std::optional<RobustRatio> moved_over_driven(const Evidence& evidence) {
   // Smallest accepted ratio of the median squared distance to that of noise alone.
   constexpr double kClear = 4.0;

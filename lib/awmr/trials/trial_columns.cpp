@@ -180,8 +180,8 @@ std::string trials_with(const std::string& column) {
 /// Returns the reason why a mapping is unused although a file has its source columns.
 std::string why_unused(const ColumnMapping& mapping) {
   return fmt::format(
-      "the files with the columns of this formula do not use {}, a column of {} trials; correct "
-      "the formula or remove it{}",
+      "the files that have the input columns of this formula do not use its result {}, a column of "
+      "{} trials; correct the formula or remove it{}",
       mapping.name, trials_with(mapping.name), why_no_formula(mapping));
 }
 

@@ -224,8 +224,8 @@ std::vector<TurnCriterion> criteria_of(const TrialSet<TurningRow>& turning,
 }
 
 /// Returns the corrections of the unit that bring `share`, a ratio of yaw rate to limit, into the
-/// range `possible`. `is_printed`: the yaw rate was read from yaw_rate_radps, not computed from
-/// turns.
+/// range `possible`. `is_printed`: the yaw rate was read from yaw_rate_radps, not computed from the
+/// number of turns and the time. The two have different units in which they may be wrong.
 std::vector<UnitFix> turn_unit_fixes(double share, const Interval& possible, bool is_printed) {
   const bool is_fast = share > possible.hi;
   std::vector<UnitFix> found;

@@ -31,7 +31,8 @@
 namespace awmr {
 
 /// Returns the limit that the turns violate and the likely units of the yaw rates; empty if the
-/// turns are possible. `surge`: surge runs of the same vehicle, if there are any.
+/// turns are possible. `surge`: surge runs of the same vehicle; without them, only the limits by
+/// grip are checked.
 std::optional<WrongUnit> wrong_turn(const TrialSet<TurningRow>& turning,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle);

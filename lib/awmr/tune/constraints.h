@@ -15,8 +15,9 @@ namespace awmr {
 /// Largest latency, in samples, for which the damping is computed.
 inline constexpr int kMaxLatencySamples = 20;
 /// mu I'z must be at least this share of the modelled yaw resistance, and mu_s m' of the surge
-/// resistance. If mu or mu_s were smaller, the control laws could not compensate model errors.
-/// Chosen above the relative model error that `awmr validate` accepts by default (0.15).
+/// resistance. If mu or mu_s were smaller, the control laws could not compensate errors of the
+/// modelled resistance. Chosen above the relative error of the model's predictions that `awmr
+/// validate` accepts by default (0.15).
 inline constexpr double kUnmodelledShare = 0.2;
 inline constexpr const char* kSteeringRate = "steering rate";
 /// Largest permitted (mu_s/eps_s) T_s, the gain of the speed loop times the sample time. The

@@ -9,7 +9,8 @@
 namespace awmr {
 namespace {
 
-/// A mode uses its own gains if they lower its objective to at most this share.
+/// A mode uses its own gains if its objective with them is at most this share of that with the
+/// gains for all modes.
 constexpr double kWorthOwnGains = 0.95;
 
 template <class Results>

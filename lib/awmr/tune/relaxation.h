@@ -32,9 +32,11 @@ struct RelaxedLimit {
 
 /// Returns, for each limit of the context that can be relaxed, some less strict values, strictest
 /// first:
-///   - limits that are stricter than their default: up to the default
-///   - also beyond the default: damping ratios down to half, noise_share up to twice the value
-///   - the limit of the steering rate: up to 20 times its value, and up to twice the servo's rate
+///   - a limit that is stricter than its default: values up to the default
+///   - a damping ratio: also down to half of its value or half of its default, whichever is smaller
+///   - noise_share: also up to twice its value or twice its default, whichever is larger
+///   - the limit of the steering rate: up to 20 times its value, but at most twice the maximum rate
+///     of the servo
 std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context);
 
 /// Returns changes of tune.json, as text such as "`limits/late_damping` 0.55". Each change alone

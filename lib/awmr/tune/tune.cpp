@@ -32,7 +32,8 @@ namespace {
 
 /// Returns why runs do not settle in one scenario and mode, and the changes with which they settle.
 /// To save time, it tries causes and changes of the gains only on the nominal vehicle and the first
-/// drawn vehicles. `is_varied`: the drawn vehicles have unmodelled variation.
+/// drawn vehicles. `is_varied`: the drawn vehicles have unmodelled variation. Errors of the
+/// identified parameters are then not tried as a cause.
 UnsettledRuns unsettled_in(const ObjectiveSetting& setting, const ConstraintContext& context,
                            const Gains<double>& gains, bool is_varied, SettlingSearch& search) {
   const YawMode mode = *setting.mode;

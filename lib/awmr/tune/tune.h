@@ -197,8 +197,8 @@ struct TuneOptions {
   /// Required form of T2 < T1. kPaper permits twice the eps/mu of kStrict.
   ReachingForm form = ReachingForm::kStrict;
   /// The reaching time constant (ReachingForm) must be at most margin T1, T1 = 1/lambda. In (0, 1).
-  /// If the margin is smaller, the sliding variable S decays faster compared with the heading
-  /// error.
+  /// The smaller the margin, the faster the sliding variable S decays in comparison with the
+  /// heading error.
   double margin = 0.8;
   ObjectiveWeights weights;
   int global_evaluations = 80;  ///< >= 1
@@ -452,9 +452,8 @@ struct UnsettledRuns {
   std::size_t vehicles = 0;
 };
 
-/// A mode that settles much faster, with a lower objective, if it has gains for this mode alone.
-/// These gains and the tuned gains are evaluated on the nominal vehicle and the first drawn
-/// vehicles.
+/// A mode that gains for this mode alone let settle much faster, with a lower objective, than the
+/// tuned gains do. Both are evaluated on the nominal vehicle and the first drawn vehicles.
 struct ModeAlone {
   YawMode mode{};
   double settling_time_s = 0.0;        ///< mean settling time, s, with gains for this mode alone
@@ -511,7 +510,8 @@ struct Tuning {
   bool observer_added = false;
   std::vector<UnsettledRuns> unsettled;
   std::vector<ModeAlone> alone;  ///< see ModeAlone; empty if only one mode is tuned
-  /// true: in one of several modes, faster gains have an objective that is lower by 3 % or more.
+  /// true: in one of several modes, faster gains lower the objective of this mode by 3 % or more,
+  /// compared with the tuned gains.
   bool is_mode_better_alone = false;
   std::optional<RobustTuning> robust;  ///< absent for nominal gains
 
@@ -552,8 +552,8 @@ inline constexpr double kPush = 0.1;
 /// Suffix of the name of a default scenario with a heading-rate limit.
 inline constexpr std::string_view kLedSuffix = "_led";
 /// Returns the scenario in which the tuned gains are evaluated after the search: twice the first
-/// heading of default_tuning_scenario(), then the heading 0, at 0.7 of its speed. Errors (input):
-/// those of Model::plant().
+/// heading of default_tuning_scenario(), then the heading 0, at 0.7 of the speed of that scenario.
+/// Errors (input): those of Model::plant().
 Result<Scenario> held_out_scenario(const Model& model);
 
 /// Tunes the gains by a global search, then local searches (search.h). Deterministic: model,

@@ -298,7 +298,8 @@ std::vector<Finding> inadequacy(const CoastModel& model, const std::string& file
                        model.noise.drift_std, model.noise.correlation_s, model.noise.sensor_std,
                        model.withdraws_intervals()
                            ? "The interval of mass_norm is withdrawn"
-                           : "The confidence interval of mass_norm does not cover this error")}};
+                           : "The confidence interval of mass_norm does not allow for this "
+                             "deviation")}};
 }
 
 }  // namespace awmr

@@ -22,8 +22,7 @@ struct CoastModel {
   /// Noise of the residuals. In the fit that gives it, the surge law may vary within its
   /// covariance.
   ChannelNoise noise;
-  double longest_s =
-      0.5;  ///< s; a slow error (drift) with a longer correlation time is a model error
+  double longest_s = 0.5;  ///< s; a drift with a longer correlation time is an error of the model
 
   bool is_inadequate() const { return noise.of_the_model(longest_s); }
   bool withdraws_intervals() const { return other || noise.overwhelms_sensor(longest_s); }
@@ -59,7 +58,8 @@ struct LawOfCurves {
 std::optional<LawOfCurves> law_of_curves(const CoastReadings& readings,
                                          const std::vector<ScoredLaw>& laws);
 
-/// The finding `model-inadequate`, if there is a model error.
+/// The finding `model-inadequate`, if the model does not describe the curves
+/// (CoastModel::is_inadequate()).
 std::vector<Finding> inadequacy(const CoastModel& model, const std::string& file);
 
 }  // namespace awmr

@@ -35,20 +35,20 @@ struct MassResult {
 /// Family that surge runs and coast-down curves together describe best.
 struct FamilyOfCurves {
   Family family = Family::kPower;
-  double decrease = 0.0;  ///< by how much it lowers AICc
+  double decrease = 0.0;  ///< AICc of the chosen family minus that of this family
 };
 /// Compares the families between which the surge runs do not decide (SubjectFit::undecided) on the
-/// curves, see law_of_curves(). Empty if the chosen family describes the curves, or no other one is
-/// significantly better.
+/// curves, see law_of_curves(). Empty if the chosen family describes the curves, or if no other
+/// family lowers AICc by more than kFamilyAicThreshold.
 std::optional<FamilyOfCurves> family_of_curves(const SubjectFit& surge,
                                                const std::vector<CoastCurve>& curves);
 
 /// Estimates m' from stop times, curves or both. `surge` is null if the surge law is not
 /// identified. Then `family` is fitted to the curves alone, and compared with the other families
 /// unless the user requested it (`power-law-inadequate`). Excludes rows and curves that do not
-/// measure a deceleration (measured_rows(), `no-deceleration`). If the model error is large, or
-/// another solution fits nearly as well (CoastModel::withdraws_intervals()), m' gets no posterior,
-/// and no joint fit is made. Further findings: `sensor-lag`, `model-inadequate`,
+/// measure a deceleration (measured_rows(), `no-deceleration`). If the residuals have a large slow
+/// drift, or another m' fits nearly as well (CoastModel::withdraws_intervals()), m' gets no
+/// posterior, and no joint fit is made. Further findings: `sensor-lag`, `model-inadequate`,
 /// `estimates-disagree`, `noise-model`, `coloured-residuals`, `not-converged`, `back-emf-assumed`,
 /// those of check_mass(). Precondition: at least one stop time or curve.
 MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<StopTimeRow>>& stops,

@@ -105,8 +105,8 @@ std::string describe_effect(const Adequacy& adequacy) {
   if (adequacy.withdraws_servo) withdrawn = "steering.time_constant_s";
   if (adequacy.withdraws_sway)
     withdrawn += (withdrawn.empty() ? "" : " and ") + std::string("sway.alpha");
-  if (withdrawn.empty()) return "The confidence intervals do not cover this model error";
-  return "No interval for " + withdrawn + "; the other intervals do not cover this model error";
+  if (withdrawn.empty()) return "The confidence intervals do not allow for this deviation";
+  return "No interval for " + withdrawn + "; the other intervals do not allow for this deviation";
 }
 
 }  // namespace

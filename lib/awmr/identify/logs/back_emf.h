@@ -39,8 +39,8 @@ bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candid
 
 /// True if `with`, the fit that estimates the back-EMF k_e, is better than `without`, the fit that
 /// does not: `with` identifies k_e, and its AIC is lower by more than kFamilyAicThreshold. False if
-/// a channel of `with` has too large a drift (ChannelNoise::overwhelms_sensor()), because another
-/// model error may then cause the difference of AIC.
+/// a channel of `with` still has a large drift (ChannelNoise::overwhelms_sensor()): something other
+/// than back-EMF, which the model lacks too, may then cause the difference of AIC.
 bool shows_back_emf(const FamilyFit& with, const FamilyFit& without);
 
 /// Returns the warning `back-emf`: the fit uses the model with back-EMF, `with`. The text has the

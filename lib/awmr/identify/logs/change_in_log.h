@@ -27,13 +27,13 @@ struct ChangeInLog {
 /// Largest error of the time of a change, s. Rows nearer to it are not fitted.
 inline constexpr double kChangeWidth_s = 1.0;
 
-/// Searches a time at which the vehicle changed. `chosen`: a fit of the whole log with a model
-/// error (ChannelNoise::of_the_model()) or a saturation of the forces. The rows before and those
-/// after a time are fitted separately, without the terms of the forces that `chosen` has (a change
-/// of mass, for example, resembles a saturation). The time with the smallest errors is searched on
-/// a grid, which is then refined. There is a change if neither part has a model error and at least
-/// one quantity differs between the parts significantly (p < 0.001, Bonferroni over all
-/// quantities).
+/// Searches a time at which the vehicle changed. `chosen`: a fit of the whole log that has a model
+/// error (ChannelNoise::of_the_model()), or in which the wheel forces saturate (saturates_much()).
+/// The rows before and those after a time are fitted separately, without the terms of the forces
+/// that `chosen` has (a change of mass, for example, resembles a saturation). The time with the
+/// smallest errors is searched on a grid, which is then refined. There is a change if neither of
+/// the two fits has a model error and at least one quantity differs between them significantly (p <
+/// 0.001, Bonferroni over all quantities).
 ///
 /// Empty without a change, with several logs, for a log of less than 20 s, or if the limit of the
 /// work (Effort) is reached.

@@ -38,7 +38,7 @@ struct InnovationSums {
   double n = 0.0;
 };
 
-/// `most`: larger values of nu_k^2/S_k count as this value.
+/// `most`: values of nu_k^2/S_k above `most` count as `most`.
 InnovationSums innovation_sums(std::span<const ErrorSeries> series, const ChannelNoise& noise,
                                double most = std::numeric_limits<double>::infinity()) {
   InnovationSums sums;

@@ -33,8 +33,8 @@ std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
 }
 
 /// Reports the fitted delay of the commands. A positive delay is a dead time. A negative one means
-/// that the time stamps of the commands are late. `with_lag`: true if the fit also estimates a
-/// motor lag.
+/// that the time stamps of the commands are late. `with_lag`: true if the fit also estimates a motor
+/// lag; the message then says that the dead time is in addition to it.
 Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::string& file) {
   if (input.value < 0.0) {
     return {file, 0, Severity::kWarning, "late-commands",
@@ -240,7 +240,8 @@ std::string trim_text(const FoundTerm& trim, const LogFit& fit) {
 /// Largest difference of left and right forces of real motors, relative to their mean.
 constexpr double kLargestMotorDifference = 0.25;
 
-/// Advice for a force imbalance. `has_trim`: the fit also has a steering trim.
+/// Advice for a force imbalance. `has_trim`: the fit also has a steering trim. Without one, the
+/// advice names unequal wheels as another possible cause.
 std::string imbalance_advice(double imbalance, bool has_trim) {
   if (std::abs(imbalance) > kLargestMotorDifference) {
     return fmt::format(
@@ -371,8 +372,9 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
   for (Finding& finding : findings) {
     if (finding.code == "force-saturation" && saturates_much(fit)) continue;
     finding.message +=
-        ". This value has no interval, because a model error may have caused it. Find the cause "
-        "of that error before you change the vehicle";
+        ". This value has no interval, because the intervals of this fit are withdrawn: a wrong "
+        "model of the vehicle may have caused the value. Before you change the vehicle, remove the "
+        "reason for which a finding withdraws the intervals";
   }
   return findings;
 }

@@ -160,9 +160,10 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
   return std::vector<FreeTerm>{{of_speed.quantity, of_speed.value}, {yaw, found->value}};
 }
 
-/// Tries a motor lag in place of the fitted command delay `found_s`: first together with a delay,
-/// which is negative if the time stamps of the commands are late. If `found_s` is positive, also
-/// without.
+/// `found_s`: command delay, s, of the trial fit that has a delay but no motor lag. Makes up to two
+/// more trials, because a motor lag may have caused this delay: one with a motor lag and a delay,
+/// and, if `found_s` is positive, one with a motor lag alone. (A delay is negative if the time
+/// stamps of the commands are late.)
 void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss,
                         LowestAic& lowest) {
   if (has_motor_lag(settled.problem.model)) return;

@@ -11,7 +11,8 @@ namespace awmr {
 /// Options of best_family(), which compares the families of a fit `first` with other families.
 struct FamilyContest {
   OpenAxes open = {};  ///< axes (surge, yaw) whose family is compared; other axes keep theirs
-  /// A power law is replaced only if the AIC of another family is lower by more than this.
+  /// Another family replaces a power law only if its AIC is lower than that of the power law by
+  /// more than this.
   double lead = 0.0;
   /// True: compares the families of an axis only if there is a reason: a score test (score_test.h)
   /// or a slow drift indicates a missing term; the fit did not converge; or the current family of

@@ -61,8 +61,8 @@ FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions&
                        const FamilyFit& inner, bool of_yaw);
 
 /// Gives the families of `first` a second chance, because the search of `first` may have failed: if
-/// the AIC of `alternative` is lower by more than 2, fits these families again from the optimum of
-/// `alternative`. Returns the better of `first` and the new fit.
+/// the AIC of `alternative` is lower than that of `first` by more than 2, fits the families of
+/// `first` again from the optimum of `alternative`. Returns the better of `first` and the new fit.
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& alternative);
 

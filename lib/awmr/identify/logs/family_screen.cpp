@@ -70,8 +70,8 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
                           const FamilyFit& first, const OpenAxes& open) {
   constexpr double kClearlyLess = 0.98;
   // Back-EMF counts only if it reduces LogFit::relative_error to less than this fraction of its
-  // value without back-EMF. A smaller decrease may come from another model error, for which
-  // back-EMF can partly compensate.
+  // value without back-EMF. A smaller decrease may come from another effect that the model lacks,
+  // for which back-EMF can partly compensate.
   constexpr double kMuchLess = 0.67;
   constexpr double kExplained = 0.7;
   constexpr int kMostChanges = 8;

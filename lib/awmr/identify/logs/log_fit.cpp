@@ -164,7 +164,10 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
 /// Result of a fit that stopped early at `coordinates`, because of large errors.
 LogFit given_up(const std::vector<FreeQuantity>& quantities, std::vector<double> coordinates,
                 double relative_error) {
-  LogFit fit = without_solution("not refined, because the errors are too large", {});
+  LogFit fit = without_solution(
+      "not refined, because its errors are too large compared with the sensor noise or with the "
+      "errors of the best fit so far",
+      {});
   fit.quantities = quantities;
   fit.coordinates = std::move(coordinates);
   fit.relative_error = relative_error;

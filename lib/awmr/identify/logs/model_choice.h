@@ -28,8 +28,9 @@ std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs);
 ///   - Every log has steering commands, but no measured angles.
 ///   - In the fit `first`, the time constant of the servo is at most half of the row spacing. (If
 ///     the fit has found late time stamps of the steering, the lateness is first subtracted.)
-///   - A fit that uses the column as the measured angle is significantly better than `first`. (If
-///     the fit has found late time stamps of the steering, any lower AIC suffices.)
+///   - The AIC of a fit that uses the column as the measured angle is lower than that of `first` by
+///     more than kFamilyAicThreshold. (If `first` has late time stamps of the steering, any lower
+///     AIC suffices.)
 bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                           const FamilyFit& first);
 

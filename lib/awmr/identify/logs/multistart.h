@@ -25,8 +25,8 @@ struct Multistart {
 /// True if a complete fit of a model would waste time, because its quick searches ended with a much
 /// larger error than those of the best fit so far. `search` must be usable. One of these conditions
 /// suffices:
-///   - -2 ln L is higher by more than 100. It is computed with noise levels at which the best fit
-///     so far has no model error.
+///   - -2 ln L is higher by more than 100 than that of the best fit after its quick searches. It is
+///     computed with noise levels at which the best fit so far has no model error.
 ///   - The errors of the best fit have a large drift, so that it gets no intervals, and this model
 ///     does not reduce the mean square error of the best fit by 30 %. (In this case both models are
 ///     wrong, and AIC cannot decide between two wrong models.)

@@ -106,7 +106,7 @@ std::vector<Terms> other_explanations(const Terms& terms, const std::vector<Driv
   return others;
 }
 
-/// Decrease of AIC by `a` instead of `b`, of all rows or, if it is smaller, of most rows.
+/// AIC of `b` minus AIC of `a`: aic_lead() or aic_lead_of_most_rows(), whichever is smaller.
 double lead_of(const LogFit& a, const LogFit& b) {
   return std::min(aic_lead(a, b), aic_lead_of_most_rows(a, b));
 }

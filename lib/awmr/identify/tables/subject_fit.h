@@ -9,8 +9,8 @@
 
 namespace awmr {
 
-/// A family is significantly better than the power law if its AICc is lower by at least this. A
-/// difference of 10 is a likelihood ratio of e^5.
+/// A family is significantly better than the power law if its AICc is lower than that of the power
+/// law by at least this. A difference of 10 is a likelihood ratio of e^5.
 inline constexpr double kTablesPlainlyBetter = 10.0;
 
 /// Result of fit_subject().
