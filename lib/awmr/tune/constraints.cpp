@@ -141,8 +141,8 @@ ConstraintReport noise_gain(const Gains<double>& gains, const ConstraintContext&
           context.heading_noise_rad,
       context.limits.noise_share * turning_authority_m(vehicle, context.speed_mps, context.mode),
       fmt::format("yaw moment that the heading law requests for a heading error of {:g} deg (the "
-                  "noise) <= {:g} % of the largest yaw moment of the mode with the smaller one; "
-                  "both divided by F_max, in m",
+                  "noise) <= {:g} % of the largest yaw moment of the weaker mode (steering or "
+                  "differential); both moments divided by F_max, in m",
                   degrees(context.heading_noise_rad), 100.0 * context.limits.noise_share));
 }
 

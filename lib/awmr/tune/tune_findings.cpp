@@ -184,9 +184,11 @@ void note_modes(const Tuning& tuning, std::vector<Finding>& findings) {
   }
   findings.push_back(
       {"", 0, Severity::kNote, "faster-in-one-mode",
-       fmt::format("gains for one mode alone settle faster (mean settling time by pole placement: "
-                   "{}). If the vehicle uses only one mode, tune for this mode ({})",
-                   modes, option_text("mode MODE"))});
+       fmt::format(
+           "gains for one mode alone, by pole placement, settle faster than the tuned gains "
+           "(mean settling time: {}). If the vehicle uses only one mode, tune for this mode "
+           "({})",
+           modes, option_text("mode MODE"))});
 }
 
 /// Adds the findings of unattainable_requests() for the scenarios and for the sensor and motor
