@@ -170,14 +170,14 @@ TEST_F(RecoverShards, PartsOfDifferentRecoveriesAreRefused) {
   const auto first = write({1, 2});
   Provenance other = kProvenance;
   other.inputs[0].sha256 = "cd";
-  EXPECT_THAT(fault({first, write({2, 2}, part({2, 2}), other)}), HasSubstr("other inputs"));
+  EXPECT_THAT(fault({first, write({2, 2}, part({2, 2}), other)}), HasSubstr("the inputs of this part (model.json)"));
   other = kProvenance;
   other.options[1].second = "4";
-  EXPECT_THAT(fault({first, write({2, 2}, part({2, 2}), other)}), HasSubstr("other options"));
+  EXPECT_THAT(fault({first, write({2, 2}, part({2, 2}), other)}), HasSubstr("options of this part (recover_seed)"));
   EXPECT_THAT(fault({first, write({2, 3})}), HasSubstr("one of 3 parts"));
   RecoverPart second = part({2, 2});
   second.truths[0].value *= 2.0;
-  EXPECT_THAT(fault({first, write({2, 2}, second)}), HasSubstr("other options"));
+  EXPECT_THAT(fault({first, write({2, 2}, second)}), HasSubstr("options of this part differ"));
 }
 
 TEST_F(RecoverShards, OfMachinesThatRoundDifferentlyAreNotMixed) {
@@ -214,7 +214,7 @@ TEST_F(RecoverShards, DamagedTablesAreNamed) {
     return table.substr(0, row) + run + table.substr(row + 1);
   };
   for (const char* run : {"2", "3", "7", "-1"}) {
-    expect(first_run(run), std::string("row 1 has run ") + run + " instead of 1");
+    expect(first_run(run), std::string("row 1 has run ") + run + ",");
   }
   for (const char* cell : {"nan", "inf", "1e308", "", "x", "0x1"}) {
     expect(with(cell), "recovery.csv:2:1: is not a valid row for these columns");
