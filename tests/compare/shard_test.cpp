@@ -108,10 +108,12 @@ TEST_F(Shards, PartsOfDifferentComparisonsAreRefused) {
   const auto first = write({1, 2});
   Provenance other = kShardProvenance;
   other.inputs[0].sha256 = "cd";
-  EXPECT_THAT(fault({first, write({2, 2}, run({2, 2}), other)}), HasSubstr("the inputs of this part"));
+  EXPECT_THAT(fault({first, write({2, 2}, run({2, 2}), other)}),
+              HasSubstr("the inputs of this part"));
   other = kShardProvenance;
   other.options[1].second = "4";
-  EXPECT_THAT(fault({first, write({2, 2}, run({2, 2}), other)}), HasSubstr("the options of this part"));
+  EXPECT_THAT(fault({first, write({2, 2}, run({2, 2}), other)}),
+              HasSubstr("the options of this part"));
   EXPECT_THAT(fault({first, write({2, 3})}), HasSubstr("one of 3 parts"));
 }
 

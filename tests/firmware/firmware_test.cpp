@@ -28,7 +28,7 @@ class Firmware : public ::testing::Test {
     return run_process(std::string("'") + kAvrGxx +
                            "' -mmcu=atmega2560 -std=c++14 -Os -ffunction-sections -fdata-sections "
                            "-Wall -Wextra -Wpedantic -Wshadow -Werror -I. -I'" AWMR_SOURCE_DIR
-                           "/lib' " +
+                           "/lib' -I'" AWMR_SOURCE_DIR "/tests' " +
                            options,
                        directory_.path());
   }

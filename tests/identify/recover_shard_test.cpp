@@ -170,10 +170,12 @@ TEST_F(RecoverShards, PartsOfDifferentRecoveriesAreRefused) {
   const auto first = write({1, 2});
   Provenance other = kProvenance;
   other.inputs[0].sha256 = "cd";
-  EXPECT_THAT(fault({first, write({2, 2}, part({2, 2}), other)}), HasSubstr("the inputs of this part (model.json)"));
+  EXPECT_THAT(fault({first, write({2, 2}, part({2, 2}), other)}),
+              HasSubstr("the inputs of this part (model.json)"));
   other = kProvenance;
   other.options[1].second = "4";
-  EXPECT_THAT(fault({first, write({2, 2}, part({2, 2}), other)}), HasSubstr("options of this part (recover_seed)"));
+  EXPECT_THAT(fault({first, write({2, 2}, part({2, 2}), other)}),
+              HasSubstr("options of this part (recover_seed)"));
   EXPECT_THAT(fault({first, write({2, 3})}), HasSubstr("one of 3 parts"));
   RecoverPart second = part({2, 2});
   second.truths[0].value *= 2.0;

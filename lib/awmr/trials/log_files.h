@@ -1,4 +1,5 @@
-/// Lists the files of a log that is given as a file or as a directory, and the files of a provenance.
+/// Lists the files of a log that is given as a file or as a directory; hashes the input files of an
+/// output.
 #pragma once
 
 #include <filesystem>
