@@ -82,6 +82,11 @@ TEST(Multistart, IsFarWorseByTheErrorsOfItsQuickSearches) {
   const BestSoFar drifting{.relative_error = 4.0, .has_large_drift = true};
   EXPECT_FALSE(is_far_worse(search(2.7), drifting));
   EXPECT_TRUE(is_far_worse(search(2.9), drifting));
+  // A model that needs a large gain has to lower -2 ln L by 5, under the noise of the best fit.
+  const BestSoFar good{.relative_error = 0.5, .has_large_drift = false, .needs_large_gain = true};
+  EXPECT_TRUE(is_far_worse(search(0.498), good)) << "-2 ln L is lower by 4";
+  EXPECT_FALSE(is_far_worse(search(0.497), good)) << "-2 ln L is lower by 6";
+  EXPECT_FALSE(is_far_worse(Multistart{{{0.0}}, {}, 0.0, 0}, good)) << "no quick search";
 }
 
 TEST(NearestCurve, IsTheCurveItselfWhereTheFamilyHasIt) {

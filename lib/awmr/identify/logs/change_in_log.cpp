@@ -17,6 +17,7 @@ namespace {
 
 /// Fits of the rows before and after a time.
 struct PartFits {
+  double t_s = 0.0;  ///< the time
   FamilyFit before;
   FamilyFit after;
 
@@ -50,7 +51,7 @@ PartFits fit_parts(const std::vector<DrivingLog>& log, const LogFitOptions& opti
   before.only_s = Interval{times_s.front(), t_s - kChangeWidth_s};
   LogFitOptions after = options;
   after.only_s = Interval{t_s + kChangeWidth_s, times_s.back() + 1.0};
-  return {fit_with(log, std::move(before), chosen.surge, chosen.yaw),
+  return {t_s, fit_with(log, std::move(before), chosen.surge, chosen.yaw),
           fit_with(log, std::move(after), chosen.surge, chosen.yaw)};
 }
 
@@ -78,31 +79,33 @@ double size_of_errors(const PartFits& parts) {
 }
 
 /// Searches the time at which the errors of both parts are smallest: on a grid, then halfway to its
-/// neighbours, until the steps are at most kChangeWidth_s. Empty if the limit of the work is
-/// reached.
-std::optional<double> likeliest_time(const std::vector<DrivingLog>& log,
-                                     const LogFitOptions& options, const FamilyFit& chosen) {
+/// neighbours, until the steps are at most kChangeWidth_s. Returns the fits of both parts. Empty if
+/// no parts could be fitted, or if the limit of the work is reached.
+std::optional<PartFits> fit_at_likeliest_time(const std::vector<DrivingLog>& log,
+                                              const LogFitOptions& options,
+                                              const FamilyFit& chosen) {
   constexpr int kGrid = 6;
   const double begin_s = log.front().t_s.front();
   double step_s = (log.front().t_s.back() - begin_s) / kGrid;
-  double best_s = begin_s;
+  std::optional<PartFits> best;
   double least = std::numeric_limits<double>::infinity();
   const auto consider = [&](double t_s) {
-    const double size = size_of_errors(fit_parts(log, options, chosen, t_s));
+    PartFits parts = fit_parts(log, options, chosen, t_s);
+    const double size = size_of_errors(parts);
     if (size < least) {
       least = size;
-      best_s = t_s;
+      best = std::move(parts);
     }
   };
   for (int k = 1; k < kGrid; ++k) consider(begin_s + k * step_s);
-  while (step_s > kChangeWidth_s) {
+  while (best && step_s > kChangeWidth_s) {
     if (is_over(options)) return std::nullopt;
     step_s /= 2.0;
-    const double middle_s = best_s;
+    const double middle_s = best->t_s;
     consider(middle_s - step_s);
     consider(middle_s + step_s);
   }
-  return std::isfinite(least) ? std::optional(best_s) : std::nullopt;
+  return best;
 }
 
 bool is_adequate(const LogFit& fit) {
@@ -112,12 +115,15 @@ bool is_adequate(const LogFit& fit) {
 }
 
 /// Fits a part again with Coulomb friction and a power law of both axes, unless it has no model
-/// error. Reason: a change of the vehicle can also have misled the choice of the families.
+/// error. Reason: a change of the vehicle can also have misled the choice of the families. The fit
+/// stops early if its errors are far above the sensor noise.
 FamilyFit with_rich_families(const std::vector<DrivingLog>& log, LogFitOptions power_law,
                              FamilyFit part) {
+  constexpr double kWrong = 10.0;  // LogFit::relative_error of a model that is certainly wrong
   if (!part.fit.usable || is_adequate(part.fit)) return part;
   power_law.only_s = part.options.only_s;
   power_law.bootstrap = 0;
+  power_law.give_up_above = kWrong;
   const Family yaw = power_law.frees(ParameterId::kYawAlpha) ? Family::kCoulombPower : part.yaw;
   return fit_from(log, power_law, part, Family::kCoulombPower, yaw);
 }
@@ -154,13 +160,13 @@ std::optional<ChangeInLog> find_change(const std::vector<DrivingLog>& logs,
   const std::vector<double>& t_s = logs.front().t_s;
   if (t_s.back() - t_s.front() < kLongEnough_s) return std::nullopt;
   const LogFitOptions options = options_of_parts(chosen);
-  const auto time_s = likeliest_time(logs, options, chosen);
-  if (!time_s) return std::nullopt;
-  PartFits parts = fit_parts(logs, options, chosen, *time_s);
-  parts.before = with_rich_families(logs, power_law, std::move(parts.before));
-  parts.after = with_rich_families(logs, power_law, std::move(parts.after));
-  if (!is_adequate(parts.before.fit) || !is_adequate(parts.after.fit)) return std::nullopt;
-  ChangeInLog change{*time_s, changed_quantities(parts)};
+  auto parts = fit_at_likeliest_time(logs, options, chosen);
+  if (!parts) return std::nullopt;
+  for (FamilyFit* part : {&parts->before, &parts->after}) {
+    *part = with_rich_families(logs, power_law, std::move(*part));
+    if (!is_adequate(part->fit)) return std::nullopt;
+  }
+  ChangeInLog change{parts->t_s, changed_quantities(*parts)};
   return change.quantities.empty() ? std::nullopt : std::optional(std::move(change));
 }
 

@@ -138,22 +138,6 @@ Finding not_finished(const std::string& file, std::string_view before, const Fam
                   before, families_in_words(fit.surge, fit.yaw), option_text("family surge=..."))};
 }
 
-/// To save time, a fit is stopped early if its LogFit::relative_error exceeds that of the best fit
-/// by more than this factor.
-constexpr double kFarWorse = 1.5;
-
-double give_up_above(const LogFit& best) { return kFarWorse * std::max(1.0, best.relative_error); }
-
-/// Returns `options` for fits that compete with `best`: they stop early if they are much worse.
-LogFitOptions with_limits_of(const FamilyFit& best, const std::vector<DrivingLog>& logs,
-                             LogFitOptions options) {
-  if (!best.fit.usable) return options;
-  options.give_up_above = std::min(options.give_up_above, give_up_above(best.fit));
-  const FamilyFit rough = fit_roughly_from(logs, options, best, best.surge, best.yaw, {});
-  options.best_so_far = BestSoFar{rough.fit.relative_error, best.fit.has_large_drift()};
-  return options;
-}
-
 /// Index of the selected fit. The fit with a power law on the axis (yaw if `of_yaw`, else surge) is
 /// selected if its AIC is at most `lead` above the lowest AIC. Otherwise the fit with the lowest
 /// AIC is.
@@ -214,7 +198,7 @@ std::set<std::string> names_of_terms(const LogFit& fit) {
 void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                            bool of_yaw, BestFamily& result) {
   if (!result.best.fit.usable || result.is_out_of_time) return;
-  power_law = with_limits_of(result.best, logs, std::move(power_law));
+  power_law = with_limits_for_gain(result.best, logs, std::move(power_law));
   FamilyFit stribeck = fit_stribeck(logs, power_law, result.best, of_yaw);
   if (aic_lead(stribeck.fit, result.best.fit) > kFamilyAicThreshold) {
     std::swap(stribeck, result.best);

@@ -164,6 +164,27 @@ FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOpti
   return {surge, yaw, std::move(options), fit};
 }
 
+LogFitOptions with_limits_of(const FamilyFit& best, const std::vector<DrivingLog>& logs,
+                             LogFitOptions options) {
+  constexpr double kFarWorse = 1.5;
+  if (!best.fit.usable) return options;
+  options.give_up_above =
+      std::min(options.give_up_above, kFarWorse * std::max(1.0, best.fit.relative_error));
+  const FamilyFit rough = fit_roughly_from(logs, options, best, best.surge, best.yaw, {});
+  options.best_so_far = BestSoFar{.relative_error = rough.fit.relative_error,
+                                  .has_large_drift = best.fit.has_large_drift()};
+  return options;
+}
+
+LogFitOptions with_limits_for_gain(const FamilyFit& best, const std::vector<DrivingLog>& logs,
+                                   LogFitOptions options) {
+  if (!best.fit.usable) return options;
+  options = with_limits_of(best, logs, std::move(options));
+  options.best_so_far->needs_large_gain = std::ranges::none_of(
+      best.fit.noise, [](const auto& channel) { return channel.second.has_slow_drift(); });
+  return options;
+}
+
 FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const FamilyFit& inner, bool of_yaw) {
   constexpr double kShare = 0.3;  // initial guess of Stribeck friction over the resistance

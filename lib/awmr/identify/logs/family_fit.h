@@ -55,6 +55,19 @@ FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOpti
                            const FamilyFit& inner, Family surge, Family yaw,
                            const std::vector<FreeTerm>& more);
 
+/// Returns `options` for fits that compete with `best`. To save time, they stop early if they are
+/// much worse (is_far_worse() in multistart.h), or if LogFit::relative_error exceeds that of `best`
+/// by more than 50 %. No limits if `best` is not usable.
+LogFitOptions with_limits_of(const FamilyFit& best, const std::vector<DrivingLog>& logs,
+                             LogFitOptions options);
+
+/// with_limits_of() for a fit that replaces `best` only if its AIC is lower by more than
+/// kFamilyAicThreshold. It also stops early if its quick searches show hardly any gain. Without
+/// this condition if the errors of `best` have a slow drift: a term can then lower AIC although it
+/// hardly lowers the mean square error.
+LogFitOptions with_limits_for_gain(const FamilyFit& best, const std::vector<DrivingLog>& logs,
+                                   LogFitOptions options);
+
 /// Fits the logs with Coulomb, linear and Stribeck friction of the yaw rate (`of_yaw`) or the
 /// speed. Starts from the optimum of `inner`, a usable fit of other families.
 FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,

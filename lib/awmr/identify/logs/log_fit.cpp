@@ -161,12 +161,12 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .usable = solved.usable && solved.converged};
 }
 
-/// Result of a fit that stopped early at `coordinates`, because of large errors.
+/// Result of a fit that stopped early at `coordinates`, because of its errors.
 LogFit given_up(const std::vector<FreeQuantity>& quantities, std::vector<double> coordinates,
                 double relative_error) {
   LogFit fit = without_solution(
-      "not refined, because its errors are too large compared with the sensor noise or with the "
-      "errors of the best fit so far",
+      "not refined, because its errors are too large compared with the sensor noise, or not small "
+      "enough compared with those of the best fit so far",
       {});
   fit.quantities = quantities;
   fit.coordinates = std::move(coordinates);

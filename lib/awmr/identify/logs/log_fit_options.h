@@ -39,6 +39,9 @@ class Effort {
 struct BestSoFar {
   double relative_error;  ///< LogFit::relative_error, in quick searches
   bool has_large_drift;   ///< LogFit::has_large_drift()
+  /// True: the other model is used only if its AIC is lower by more than kFamilyAicThreshold, and
+  /// the errors of the best fit are nearly white, so that their mean square shows the gain of AIC.
+  bool needs_large_gain = false;
 };
 
 struct LogFitOptions {

@@ -177,16 +177,18 @@ std::optional<BestFamily> with_screened_back_emf(const std::vector<DrivingLog>& 
 /// parameter of `power_law`, selects the families again, and returns the new result, with the best
 /// fit of `ideal` as one of its alternatives. Otherwise returns `ideal`, with the fit with back-EMF
 /// as one of its alternatives.
+/// The fit with back-EMF stops early if its quick searches show no gain (with_limits_for_gain()).
 BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
                             const IdentifyOptions& options, BestFamily ideal) {
   show_step(options, "trying back-EMF of the motors");
   LogFitOptions freed = with_back_emf(power_law);
-  const FamilyFit same = fit_from(logs, freed, ideal.best, ideal.best.surge, ideal.best.yaw);
+  const FamilyFit same = fit_from(logs, with_limits_for_gain(ideal.best, logs, freed), ideal.best,
+                                  ideal.best.surge, ideal.best.yaw);
   if (shows_back_emf(same, ideal.best)) {
     ideal.best = searched_again(logs, power_law, std::move(ideal.best), same);
   }
   if (!shows_back_emf(same, ideal.best)) {
-    if (!same.fit.usable) {
+    if (!same.fit.usable && !same.fit.gave_up) {
       ideal.is_out_of_time = is_over(power_law);
       ideal.findings.push_back(
           {logs.front().file, 0, Severity::kWarning, "families-not-compared",

@@ -22,14 +22,16 @@ struct Multistart {
   int readings = 0;  ///< number of readings in these parts
 };
 
-/// True if a complete fit of a model would waste time, because its quick searches ended with a much
-/// larger error than those of the best fit so far. `search` must be usable. One of these conditions
-/// suffices:
+/// True if a complete fit of a model would waste time, because its quick searches, compared with
+/// those of the best fit so far, show that it will not be selected. `search` must be usable. One of
+/// these conditions suffices:
 ///   - -2 ln L is higher by more than 100 than that of the best fit after its quick searches. It is
 ///     computed with noise levels at which the best fit so far has no model error.
 ///   - The errors of the best fit have a large drift, so that it gets no intervals, and this model
 ///     does not reduce the mean square error of the best fit by 30 %. (In this case both models are
 ///     wrong, and AIC cannot decide between two wrong models.)
+///   - The model is selected only with a much lower AIC (BestSoFar::needs_large_gain), but -2 ln L
+///     of its quick searches is lower by less than 5.
 bool is_far_worse(const Multistart& search, const BestSoFar& best);
 
 /// Returns a smaller problem for quick searches: up to twelve parts of 2.5 s, spread over all logs,
