@@ -56,7 +56,7 @@ Status check_baseline(const Objective& objective, const Baseline& baseline) {
 constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 
 /// Bandwidths of the observer from which the search starts, rad/s.
-constexpr double kStartBandwidths[] = {0.5, 1.0, 2.0};
+constexpr double kStartBandwidths[] = {0.25, 0.5, 1.0, 2.0};
 
 /// Returns the gains from which the search starts:
 ///   - `first`, which meets the constraints;

@@ -15,6 +15,7 @@
 #include "awmr/tune/pole_placement.h"
 #include "awmr/tune/relaxation.h"
 #include "awmr/tune/steering_rate.h"
+#include "awmr/tune/tuning_context.h"
 
 namespace awmr {
 namespace {
@@ -138,14 +139,11 @@ std::optional<double> SettlingSearch::settling_bandwidth_radps(const ObjectiveSe
                                                                const std::string& change,
                                                                const ConstraintContext& changed,
                                                                double share) {
-  const double authority_m = turning_authority_m(changed.own(), changed.speed_mps);
-  const double thrust = driven_wheels(changed.plant) * forces_beyond_dead_zone(changed.own()).hi -
-                        changed.plant.surge(changed.speed_mps);
-  if (!(thrust > 0.0)) return std::nullopt;
-  for (const double bandwidth_radps : {0.5, 1.0, 2.0, 4.0}) {
+  const AxisForces<double> limits = observer_limits(changed);
+  if (!(limits.surge > 0.0)) return std::nullopt;
+  for (const double bandwidth_radps : {0.25, 0.5, 1.0, 2.0, 4.0}) {
     if (bandwidth_radps * changed.sample_time_s >= 1.0) break;
-    const ObserverGains<double> observer{bandwidth_radps, kObserverShare * authority_m,
-                                         kObserverShare * thrust};
+    const ObserverGains<double> observer{bandwidth_radps, limits.yaw_m, limits.surge};
     if (any_settles(setting, poles(change, changed, observer), share)) return bandwidth_radps;
   }
   return std::nullopt;

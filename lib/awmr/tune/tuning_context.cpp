@@ -83,16 +83,24 @@ void limit_steering_rate(ConstraintContext& context) {
                kOverFeedForward * steering_rate_rms_degps(none, without_friction));
 }
 
+AxisForces<double> observer_limits(const ConstraintContext& context) {
+  const Plant<double>& plant = context.plant;
+  const double thrust = driven_wheels(plant) * forces_beyond_dead_zone(context.own()).hi -
+                        plant.surge(context.speed_mps);
+  const double moment_m = turning_authority_m(context.own(), context.speed_mps);
+  const double friction_m = std::min(plant.yaw.coulomb, moment_m);
+  return {.surge = kObserverShare * thrust,
+          .yaw_m = friction_m + kObserverShare * (moment_m - friction_m)};
+}
+
 Status limit_observer(const ConstraintContext& context, std::optional<ObserverSearch>& observer) {
   if (!observer) return {};
-  const Plant<double>& plant = context.plant;
-  const double left = driven_wheels(plant) * forces_beyond_dead_zone(context.own()).hi -
-                      plant.surge(context.speed_mps);
+  const AxisForces<double> defaults = observer_limits(context);
   const std::tuple<const char*, std::optional<double>*, double> limits[] = {
-      {"yaw_max_m", &observer->yaw_max_m, turning_authority_m(context.own(), context.speed_mps)},
-      {"surge_max", &observer->surge_max, left}};
-  for (const auto& [name, limit, most] : limits) {
-    if (!*limit) *limit = kObserverShare * most;
+      {"yaw_max_m", &observer->yaw_max_m, defaults.yaw_m},
+      {"surge_max", &observer->surge_max, defaults.surge}};
+  for (const auto& [name, limit, by_default] : limits) {
+    if (!*limit) *limit = by_default;
     if (**limit > 0.0) continue;
     return input_error(ErrorCode::kOutOfRange, "",
                        fmt::format("no default for the observer's {}: at {:g} m/s the wheels have "

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "awmr/control/disturbance_observer.h"
 #include "awmr/core/result.h"
 #include "awmr/model/vehicle.h"
 #include "awmr/simulate/conditions.h"
@@ -29,7 +30,11 @@ void add_conditions(const LoopConditions& conditions, ConstraintContext& context
 /// Sets the limit of the steering rate to its default, if it is absent (TuningLimits).
 void limit_steering_rate(ConstraintContext& context);
 
-/// Sets the default limits of an observer. Errors (input): at the speed of the scenarios, the
+/// Default limits of an observer (ObserverSearch), in surge and in yaw. At most 0 if the wheels have
+/// no force left at the speed of the context.
+AxisForces<double> observer_limits(const ConstraintContext& context);
+
+/// Sets the limits of an observer that are absent to observer_limits(). Errors (input): at the speed of the scenarios, the
 /// wheels have no force left to compensate a disturbance.
 Status limit_observer(const ConstraintContext& context, std::optional<ObserverSearch>& observer);
 
