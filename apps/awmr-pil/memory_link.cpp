@@ -11,9 +11,8 @@
 namespace awmr::pil {
 namespace {
 
-/// Time limit for the chip to go to sleep, in clock cycles: 1 s. The longest wait is 0.1 s, at the
-/// start, when the chip computes a checksum of its parameters.
-constexpr std::uint64_t kStartCycles = 16'000'000;
+/// Time limit for the chip to go to sleep, in clock cycles. The longest wait is that at the start.
+constexpr auto kStartCycles = static_cast<std::uint64_t>(kStartTimeout_s * kChipClock_Hz);
 
 class MemoryLink : public Chip {
  public:

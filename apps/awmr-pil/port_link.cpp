@@ -17,8 +17,7 @@
 namespace awmr::pil {
 namespace {
 
-/// Timeout of the start. It is ten times the 50 ms that the firmware takes to check its parameters.
-constexpr int kStartTimeout_ms = 500;
+constexpr int kStartTimeout_ms = static_cast<int>(1000.0 * kStartTimeout_s);
 /// Timeout of an answer. It is twice the slowest case, 140 bytes at 9600 baud, which take 146 ms.
 constexpr int kAnswerTimeout_ms = 300;
 /// Waiting time after the port is opened, ms. Opening the port resets a Mega 2560, whose boot

@@ -9,9 +9,8 @@
 namespace awmr::pil {
 namespace {
 
-/// Timeout of the start, in clock cycles: 1 s. The firmware's check of its parameters takes a tenth
-/// of this time.
-constexpr std::uint64_t kLineStartCycles = 16'000'000;
+/// Timeout of the start, in clock cycles.
+constexpr auto kLineStartCycles = static_cast<std::uint64_t>(kStartTimeout_s * kChipClock_Hz);
 /// Timeout of an answer, in clock cycles: 30 ms. A request, its control step and its answer take 3
 /// ms. But the timeout must also exceed the pause of 20 ms after which the chip discards an
 /// incomplete frame. With a shorter timeout, the chip would read the repeated request as a part of
