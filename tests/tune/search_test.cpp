@@ -18,8 +18,10 @@
 #include "awmr/tune/pole_placement.h"
 #include "awmr/tune/robust.h"
 #include "awmr/tune/settling.h"
+#include "awmr/tune/steering_rate.h"
 #include "awmr/tune/trade_off.h"
 #include "awmr/tune/tune_findings.h"
+#include "awmr/tune/tuning_context.h"
 #include "awmr/tune/turning.h"
 #include "awmr/tune/unsettled_cause.h"
 #include "support/uncertain_model.h"
@@ -857,6 +859,36 @@ TEST(Tune, AddsAnObserverIfRunsDoNotSettleWithoutIt) {
     EXPECT_EQ(without.error().faults.front().code, ErrorCode::kNoGains);
     EXPECT_THAT(to_text(without.error()), ::testing::HasSubstr("observer"));
   }
+}
+
+/// An observer whose limit is below the friction cannot move a vehicle that rests. The friction is
+/// that of a vehicle with more friction than half of its largest moment.
+TEST(Observer, DefaultLimitExceedsTheFrictionInYaw) {
+  ConstraintContext context{.plant = paper_plant()};
+  context.speed_mps = 1.0;
+  const double without_m = observer_limits(context).yaw_m;
+  const double moment_m = turning_authority_m(context.own(), context.speed_mps);
+  EXPECT_DOUBLE_EQ(without_m, kObserverShare * moment_m);
+  context.plant.yaw.coulomb = 0.8 * moment_m;
+  EXPECT_DOUBLE_EQ(observer_limits(context).yaw_m, 0.9 * moment_m);
+  context.plant.yaw_scrub_m = 0.3 * moment_m;
+  EXPECT_DOUBLE_EQ(observer_limits(context).yaw_m, 1.2 * moment_m);
+}
+
+/// At the error of friction_error_rad(), the moment of the heading law equals the friction: the
+/// corrective term plus the fed-forward friction, both in proportion to the error.
+TEST(FrictionError, BalancesTheMomentOfTheHeadingLaw) {
+  Plant<double> plant = paper_plant();
+  plant.yaw.coulomb = 0.03;
+  Gains<double> gains{{2.0, 5.0, 0.5}, {3.0, 0.3}};
+  gains.heading.friction_width_radps = 0.4;
+  const double error_rad = friction_error_rad(gains, plant, YawMode::kSteering);
+  const double s = gains.heading.lambda * error_rad;
+  const double moment_m = plant.inertia_norm * gains.heading.mu / gains.heading.epsilon * s +
+                          plant.yaw.coulomb * s / gains.heading.friction_width_radps;
+  EXPECT_NEAR(moment_m, plant.yaw.coulomb, 1e-12);
+  plant.yaw.coulomb = 0.0;
+  EXPECT_EQ(friction_error_rad(gains, plant, YawMode::kSteering), 0.0);
 }
 
 /// With dry friction, no gains without an observer settle, so none reach a goal on settling.

@@ -202,6 +202,13 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
   return gains;
 }
 
+double friction_error_rad(const Gains<double>& gains, const Plant<double>& plant, YawMode mode) {
+  const HeadingGains<double>& heading = gains.heading;
+  const double friction = plant.yaw.coulomb / plant.inertia_norm;
+  const double width_radps = gains.friction_width_at(steering_share<double>(mode));
+  return friction / (heading.lambda * (heading.mu / heading.epsilon + friction / width_radps));
+}
+
 double servo_rate_degps(const Vehicle& vehicle, const Plant<double>& plant) {
   return std::min(vehicle.steering_max_rate_degps,
                   2.0 * degrees(plant.steering_max_rad) / plant.steering_time_constant_s);

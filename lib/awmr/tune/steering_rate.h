@@ -33,6 +33,13 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider = 0.0);
 
+/// Largest heading error, rad, at which Coulomb friction c3 in yaw can hold the vehicle, if the gains
+/// have no observer:
+///   c3/(I'z lambda (mu/eps + c3/(I'z w0)))
+/// I'z: yaw inertia (c3 and I'z divided by F_max); lambda, mu, eps: gains of the heading law; w0:
+/// friction width of the mode. An observer makes this error decay.
+double friction_error_rad(const Gains<double>& gains, const Plant<double>& plant, YawMode mode);
+
 /// Largest rate of the steering, deg/s: that of the servo, but at most 2 d_max/T, with the largest
 /// steering angle d_max and the servo's time constant T.
 double servo_rate_degps(const Vehicle& vehicle, const Plant<double>& plant);

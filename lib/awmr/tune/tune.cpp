@@ -46,6 +46,7 @@ UnsettledRuns unsettled_in(const ObjectiveSetting& setting, const ConstraintCont
   }
   const ObjectiveSetting few = on_few_vehicles(setting);
   unsettled.vehicles = few.vehicles.size();
+  unsettled.friction = friction_effect(few, gains, mode);
   unsettled.noise = noise_effect(few, gains);
   if (unsettled.noise) return unsettled;
   if (few.vehicles.size() > 1 && !is_varied) {

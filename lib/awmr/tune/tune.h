@@ -426,6 +426,13 @@ struct NoiseEffect {
   /// without noise either.
   bool is_of_identified = false;
 };
+/// Coulomb friction in yaw that keeps runs from settling.
+struct FrictionEffect {
+  double share_without = 0.0;  ///< share of the runs that settle without this friction, [0, 1]
+  /// largest heading error, deg, at which the friction can hold the vehicle without an observer
+  double error_deg = 0.0;
+  double observer_radps = 0.0;  ///< bandwidth of the observer, rad/s; 0 without one
+};
 /// Error of an identified quantity that keeps runs from settling.
 struct UnsettlingError {
   std::string quantity;        ///< for messages, such as "the yaw resistance g3"
@@ -440,6 +447,8 @@ struct UnsettledRuns {
   YawMode mode{};
   /// Why the mode cannot turn the vehicle (turning.h); empty if it can.
   std::string why = {};
+  /// Effect of Coulomb friction in yaw; absent if it is not a cause.
+  std::optional<FrictionEffect> friction = {};
   /// Effect of sensors without noise; absent if the noise is not the cause.
   std::optional<NoiseEffect> noise = {};
   /// The error of the model that keeps the most runs from settling. Absent if most of these runs do

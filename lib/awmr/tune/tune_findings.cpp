@@ -34,6 +34,26 @@ void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
                      : std::string("increase judged_draws"))});
 }
 
+/// Half width of the settling band, for messages.
+std::string settling_band() {
+  return fmt::format("the larger of {:g} deg and {:g} % of the step", meter::kSettledLeastDeg,
+                     100.0 * meter::kSettledShare);
+}
+
+/// Returns the part of a message that reports the effect of friction.
+std::string friction_text(const FrictionEffect& friction) {
+  std::string text = fmt::format(
+      ". Without the dry (Coulomb) friction in yaw, {:.0f} % settle: it can hold the vehicle "
+      "{:.2g} "
+      "deg from the commanded heading, and the settling band is {}",
+      100.0 * friction.share_without, friction.error_deg, settling_band());
+  if (friction.observer_radps > 0.0) {
+    text += fmt::format(". The observer reduces this error by a factor of 2.7 in {:.2g} s",
+                        1.0 / friction.observer_radps);
+  }
+  return text;
+}
+
 /// Returns the end of a message about runs that do not settle: why the mode cannot turn the
 /// vehicle, or the changes with which the runs settle. Precondition: `unsettled` contains this
 /// scenario and mode.
@@ -43,24 +63,30 @@ std::string advice_for(const std::string& scenario, YawMode mode,
     return runs.scenario == scenario && runs.mode == mode;
   });
   if (!found->why.empty()) return ": " + found->why;
+  std::string advice = found->friction ? friction_text(*found->friction) : "";
   if (const auto& noise = found->noise) {
-    return fmt::format(
-        ". With noise-free sensors{}, {:.0f} % settle{}: {} the heading out of the settling band, "
-        "the larger of {:g} deg and {:g} % of the step. Use sensors with less noise, or filter "
-        "their readings and enter the new `noise` and `noise_correlation_s` in vehicle.json{}",
-        noise->is_of_identified ? " and the identified values of all parameters" : "",
-        100.0 * noise->share_without,
-        noise->time_factor > 1.0
-            ? fmt::format(" in {:g} times the duration (limits on noise make the gains slow)",
-                          noise->time_factor)
-            : "",
-        noise->is_of_identified ? "noise and errors of the model together move" : "the noise moves",
-        meter::kSettledLeastDeg, 100.0 * meter::kSettledShare,
-        noise->is_of_identified ? ", and record trials that reduce the errors (awmr suggest)" : "");
+    return advice +
+           fmt::format(
+               ". With noise-free sensors{}, {:.0f} % settle{}: {} the heading out of the settling "
+               "band, "
+               "{}. Use sensors with less noise, or filter their readings and enter the new "
+               "`noise` and "
+               "`noise_correlation_s` in vehicle.json{}",
+               noise->is_of_identified ? " and the identified values of all parameters" : "",
+               100.0 * noise->share_without,
+               noise->time_factor > 1.0
+                   ? fmt::format(
+                         " in {:g} times the duration (limits on noise make the gains slow)",
+                         noise->time_factor)
+                   : "",
+               noise->is_of_identified ? "noise and errors of the model together move"
+                                       : "the noise moves",
+               settling_band(),
+               noise->is_of_identified ? ", and record trials that reduce the errors (awmr suggest)"
+                                       : "");
   }
-  std::string advice;
   if (const auto& error = found->error) {
-    advice = fmt::format(
+    advice += fmt::format(
         ". With the identified values of all parameters, {:.0f} % settle, so errors of the model "
         "keep runs from settling. The largest effect has the error of {}: with its identified "
         "value alone, {:.0f} % settle. Record {}, and identify again",

@@ -90,7 +90,7 @@ AxisForces<double> observer_limits(const ConstraintContext& context) {
   const double moment_m = turning_authority_m(context.own(), context.speed_mps);
   const double friction_m = std::min(plant.yaw.coulomb, moment_m);
   return {.surge = kObserverShare * thrust,
-          .yaw_m = friction_m + kObserverShare * (moment_m - friction_m)};
+          .yaw_m = friction_m + plant.yaw_scrub_m + kObserverShare * (moment_m - friction_m)};
 }
 
 Status limit_observer(const ConstraintContext& context, std::optional<ObserverSearch>& observer) {

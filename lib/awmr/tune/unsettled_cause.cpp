@@ -3,11 +3,24 @@
 #include <algorithm>
 #include <string>
 
+#include "awmr/core/units.h"
 #include "awmr/model/model.h"
 #include "awmr/model/parameters.h"
 #include "awmr/tune/settling.h"
+#include "awmr/tune/steering_rate.h"
 
 namespace awmr {
+
+std::optional<FrictionEffect> friction_effect(ObjectiveSetting setting, const Gains<double>& gains,
+                                              YawMode mode) {
+  const Plant<double> nominal = setting.vehicles.front().plant;
+  if (!(nominal.yaw.coulomb > 0.0)) return std::nullopt;
+  for (DrawnVehicle& vehicle : setting.vehicles) vehicle.plant.yaw.coulomb = 0.0;
+  const double without = settled_share(setting, gains);
+  if (without < kSettledShare) return std::nullopt;
+  return FrictionEffect{without, degrees(friction_error_rad(gains, nominal, mode)),
+                        gains.observer.bandwidth_radps};
+}
 
 std::optional<NoiseEffect> noise_effect(const ObjectiveSetting& setting,
                                         const Gains<double>& gains) {

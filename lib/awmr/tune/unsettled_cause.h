@@ -9,6 +9,12 @@
 
 namespace awmr {
 
+/// Returns the effect of Coulomb friction in yaw if it keeps runs of this mode from settling: at
+/// least kSettledShare of them settle if neither the vehicles nor the control law have this friction.
+/// Precondition: fewer than kSettledShare of the runs settle.
+std::optional<FrictionEffect> friction_effect(ObjectiveSetting setting, const Gains<double>& gains,
+                                              YawMode mode);
+
 /// Returns the effect of sensor noise if it keeps the runs from settling: at least kSettledShare of
 /// them settle without noise, but not with noise. Both are tried with the duration of the
 /// scenarios, then with four times this duration, because gains that limits on noise make slow need
