@@ -45,13 +45,15 @@ struct SpeedRatio {
   double ratio_mps;
 };
 
-/// Median of the ratios, if at least 80 % of them are equal within 5 %. Empty in these cases,
+/// Median of the ratios, if at least 80 % of the speeds differ from the median ratio times the
+/// command by at most 5 %, or 5 % and the speed of 1 % of the full command. Empty in these cases,
 /// because the speeds are then not shown to be proportional to the commands:
 ///   - There are fewer than six such ratios, or their median is not positive.
 ///   - Their commands differ by less than a factor of 3. (Over this factor, the ratios of a power
 ///     law with the exponent b1 = 0.9 differ by 12 %.)
 std::optional<double> common_ratio_mps(std::vector<SpeedRatio> ratios) {
   constexpr double kEqual = 0.05;
+  constexpr double kSmallCommand = 0.01;
   constexpr double kMostOf = 0.8;  // the others: short segments, in which the motion still changes
   constexpr double kRange = 3.0;
   constexpr double kFewest = 6.0;
@@ -60,7 +62,8 @@ std::optional<double> common_ratio_mps(std::vector<SpeedRatio> ratios) {
   for (const SpeedRatio& one : ratios) all.push_back(one.ratio_mps);
   const double middle = median(all);
   std::erase_if(ratios, [&](const SpeedRatio& one) {
-    return !(std::abs(one.ratio_mps - middle) <= kEqual * std::abs(middle));
+    const double tolerance = kEqual + kSmallCommand / one.command;
+    return !(std::abs(one.ratio_mps - middle) <= tolerance * std::abs(middle));
   });
   const auto equal = static_cast<double>(ratios.size());
   if (equal < std::max(kFewest, kMostOf * static_cast<double>(all.size()))) return std::nullopt;
@@ -92,10 +95,14 @@ std::optional<double> measured_ratio_mps(const Vehicle& vehicle,
 std::optional<SpeedControl> find_speed_control(const Vehicle& vehicle,
                                                const std::vector<DrivingLog>& logs,
                                                const FamilyFit& chosen, bool is_adequate) {
+  // Largest errors of a right model, divided by the sensor noise. A speed controller adds dynamics
+  // of its own, which leave larger errors.
+  constexpr double kErrorOfDrag = 1.5;
   const auto measured = measured_ratio_mps(vehicle, logs, is_adequate);
   const auto fitted = fitted_ratio_mps(vehicle, logs, chosen);
   if (!measured && !fitted) return std::nullopt;
-  return SpeedControl{measured ? *measured : *fitted, measured && !(is_adequate && fitted)};
+  const bool is_motor_drag = is_adequate && fitted && chosen.fit.relative_error < kErrorOfDrag;
+  return SpeedControl{measured ? *measured : *fitted, measured && !is_motor_drag};
 }
 
 Finding speed_control_finding(const SpeedControl& found, const std::string& file) {

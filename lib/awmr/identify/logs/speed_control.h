@@ -29,8 +29,9 @@ struct SpeedControl {
 ///     right count: for a vehicle without speed controller, inner and outer wheels then have
 ///     different ratios, unless its only resistance is motor drag.
 ///
-/// The second sign withdraws the intervals, unless the model describes the logs and has the first
-/// sign too: a vehicle with motor drag alone.
+/// The second sign withdraws the intervals, unless all of this indicates motor drag: the model
+/// describes the logs, its errors are hardly larger than the sensor noise (LogFit::relative_error
+/// below 1.5), and the first sign is present too.
 std::optional<SpeedControl> find_speed_control(const Vehicle& vehicle,
                                                const std::vector<DrivingLog>& logs,
                                                const FamilyFit& chosen, bool is_adequate);
