@@ -325,6 +325,29 @@ DrivingLog with_speed_of_wheel(DrivingLog log, const Truth& t, double left_m) {
   return log;
 }
 
+TEST(LateLog, FindsTheDeviationOfACompass) {
+  constexpr double kSin_rad = 0.11;
+  constexpr double kCos_rad = -0.06;
+  const Truth& t = kTruths[1];
+  DrivingLog log = precise_drive(t);
+  for (double& psi_rad : log[LogChannel::kHeading]->value) {
+    psi_rad += kSin_rad * std::sin(psi_rad) + kCos_rad * std::cos(psi_rad);
+  }
+  TrialData data;
+  data.logs = {std::move(log)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  for (const auto& [name, truth] :
+       {std::pair("compass.sin_rad", kSin_rad), std::pair("compass.cos_rad", kCos_rad)}) {
+    const auto found = estimated(*result, name);
+    ASSERT_TRUE(found && found->std_error) << name;
+    EXPECT_NEAR(found->value, truth, 4.5 * *found->std_error) << name;
+  }
+  EXPECT_TRUE(has_finding(*result, "compass-deviation"));
+  EXPECT_FALSE(has_finding(*result, "sensor-scale"));
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+}
+
 TEST_P(LateLogs, FindsTheSpeedOfOneWheel) {
   const Truth& t = kTruths[1];
   const double half_track_m = robot().half_track_m;

@@ -162,7 +162,10 @@ INSTANTIATE_TEST_SUITE_P(
         TermCase{"MovingAverage", {{smoothing_of(LogChannel::kYawRate, true), 0.0021}}},
         TermCase{"DelayAndSmoothing",
                  {{free_term(FreeQuantity::Kind::kSensorDelay, LogChannel::kSpeed), 0.023},
-                  {smoothing_of(LogChannel::kSpeed), 0.0017}}}),
+                  {smoothing_of(LogChannel::kSpeed), 0.0017}}},
+        TermCase{"CompassDeviation",
+                 {{free_term(FreeQuantity::Kind::kCompassSin), 0.12},
+                  {free_term(FreeQuantity::Kind::kCompassCos), -0.07}}}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

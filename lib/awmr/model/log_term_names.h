@@ -52,5 +52,7 @@ inline constexpr std::string_view kSlipRatioPrefix =
 inline constexpr std::string_view kSwayOffsetName = "sway.offset_m";    ///< of the sway sensor
 inline constexpr std::string_view kSwayAngleName = "sway.angle_rad";    ///< of the sway sensor
 inline constexpr std::string_view kSpeedOffsetName = "speed.offset_m";  ///< of the speed sensor
+inline constexpr std::string_view kCompassSinName = "compass.sin_rad";  ///< deviation at 90 deg
+inline constexpr std::string_view kCompassCosName = "compass.cos_rad";  ///< deviation at 0 deg
 
 }  // namespace awmr

@@ -34,8 +34,9 @@ bool is_estimated_name(std::string_view name) {
          name == kSteeringScaleName || name == kServoRateName || name == kForceImbalanceName ||
          name == kForceExponentName || name == kForceSaturationName ||
          name == kSaturationSharpnessName || name == kSwayOffsetName || name == kSwayAngleName ||
-         name == kSpeedOffsetName || name == kMotorLagName || name == kMassOverSurgeName ||
-         name == kCoulombOverSurgeName || name == kQuadraticOverSurgeName ||
+         name == kSpeedOffsetName || name == kCompassSinName || name == kCompassCosName ||
+         name == kMotorLagName || name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
+         name == kQuadraticOverSurgeName ||
          std::ranges::find(kExtraForceNames, name) != kExtraForceNames.end() ||
          name.starts_with(kBiasPrefix) || name.starts_with(kSensorDelayPrefix) ||
          name.starts_with(kSensorLagPrefix) || name.starts_with(kSmoothingPrefix) ||

@@ -85,6 +85,27 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
                        least.value, most.value, kWhy)}};
 }
 
+/// Finding `compass-deviation` about the coefficients B and C of the compass (FreeQuantity::Kind).
+std::vector<Finding> compass_findings(const LogFit& fit, const std::string& file) {
+  double squares = 0.0;
+  double variance = 0.0;  // of the root of `squares`, times `squares`
+  for (const auto kind : {FreeQuantity::Kind::kCompassSin, FreeQuantity::Kind::kCompassCos}) {
+    for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+      if (fit.quantities[i].kind != kind || !fit.refusal_reason[i].empty()) continue;
+      squares += std::pow(fit.coordinates[i], 2);
+      variance += std::pow(fit.coordinates[i] * fit.error_of(i), 2);
+    }
+  }
+  const double largest = std::sqrt(squares);
+  if (!(squares > 2.0 * std::sqrt(variance))) return {};
+  return {{file, 0, Severity::kWarning, "compass-deviation",
+           fmt::format("the error of heading_deg varies with the heading, by up to {:.1f} +- "
+                       "{:.1f} deg to both sides, as by magnetic parts of the vehicle. The fit "
+                       "compensates for this, but simulations and tuned gains ignore it; calibrate "
+                       "the compass ({})",
+                       degrees(largest), degrees(std::sqrt(variance) / largest), "awmr compass")}};
+}
+
 std::string sensor_delay_text(const FoundTerm& delay, const LogFit&) {
   const bool is_position = delay.quantity.channel == LogChannel::kX;
   return fmt::format(
@@ -365,7 +386,8 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
       findings.push_back({file, 0, Severity::kWarning, one.code, one.text(term, fit)});
     }
   }
-  for (const auto& more : {actuator_findings(fit, file), force_findings(fit, file)}) {
+  for (const auto& more :
+       {compass_findings(fit, file), actuator_findings(fit, file), force_findings(fit, file)}) {
     findings.insert(findings.end(), more.begin(), more.end());
   }
   if (!withdrawn) return findings;

@@ -96,6 +96,11 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
                                    std::pair(ExtraForce::kSlopeY, ExtraForce::kSlopeX)}) {
     if (candidate.quantity.is(one)) terms.push_back({extra_force(other), 0.0});
   }
+  for (const auto& [one, other] :
+       {std::pair(FreeQuantity::Kind::kCompassSin, FreeQuantity::Kind::kCompassCos),
+        std::pair(FreeQuantity::Kind::kCompassCos, FreeQuantity::Kind::kCompassSin)}) {
+    if (candidate.quantity.kind == one) terms.push_back({free_term(other), 0.0});
+  }
   if (candidate.quantity.kind == FreeQuantity::Kind::kForceSaturation) {
     const FreeQuantity sharpness = free_term(FreeQuantity::Kind::kSaturationSharpness);
     terms.push_back({sharpness, to_coordinate(sharpness.scale, kDefaultSharpness)});

@@ -180,10 +180,11 @@ double begin_of(const FreeQuantity& quantity) {
 std::vector<FreeQuantity> all_terms() {
   using Kind = FreeQuantity::Kind;
   std::vector<FreeQuantity> terms;
-  for (const Kind kind : {Kind::kDelay, Kind::kSteeringDelay, Kind::kMotorLag, Kind::kSteeringTrim,
-                          Kind::kSteeringDeadBand, Kind::kSteeringAsymmetry, Kind::kSteeringCurve,
-                          Kind::kForceImbalance, Kind::kForceExponent, Kind::kSwayOffset,
-                          Kind::kSwayAngle, Kind::kSpeedOffset}) {
+  for (const Kind kind :
+       {Kind::kDelay, Kind::kSteeringDelay, Kind::kMotorLag, Kind::kSteeringTrim,
+        Kind::kSteeringDeadBand, Kind::kSteeringAsymmetry, Kind::kSteeringCurve,
+        Kind::kForceImbalance, Kind::kForceExponent, Kind::kSwayOffset, Kind::kSwayAngle,
+        Kind::kSpeedOffset, Kind::kCompassSin, Kind::kCompassCos}) {
     terms.push_back(free_term(kind));
   }
   for (const ExtraForce force :
@@ -242,6 +243,10 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
     if (!has_kind(quantities, Kind::kSwayAngle)) found.push_back(free_term(Kind::kSwayAngle));
   }
   add_speed_offset(problem, found);
+  for (const Kind kind : {Kind::kCompassSin, Kind::kCompassCos}) {
+    const bool is_measured = problem.model.noise.contains(LogChannel::kHeading);
+    if (is_measured && !has_kind(quantities, kind)) found.push_back(free_term(kind));
+  }
   return found;
 }
 

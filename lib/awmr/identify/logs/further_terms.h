@@ -27,7 +27,8 @@ namespace awmr {
 ///     a position is measured;
 ///   - slip of the wheels that measure the speed or, if left and right forces differ, the yaw rate,
 ///     unless an excess of wheel forces is estimated (wheel_slip.h does not include it);
-///   - position and direction of a sensor of the sideways (sway) speed.
+///   - position and direction of a sensor of the sideways (sway) speed;
+///   - the deviation of a compass, if the heading is measured.
 std::vector<FreeQuantity> further_terms(const LogProblem& problem);
 
 /// True for channels that programs often filter before logging: speed, yaw rate and heading.

@@ -77,8 +77,10 @@ constexpr KindInfo kKinds[] = {
     {kSlipPrefix, {0.0, 10.0}},  // kSlipRatioPrefix for a slip ratio
     {kSwayOffsetName, {-5.0, 5.0}},
     {kSwayAngleName, {-1.0, 1.0}},
-    {kSpeedOffsetName, {-5.0, 5.0}}};
-static_assert(std::size(kKinds) == at(FreeQuantity::Kind::kSpeedOffset) + 1);
+    {kSpeedOffsetName, {-5.0, 5.0}},
+    {kCompassSinName, {-0.5, 0.5}},
+    {kCompassCosName, {-0.5, 0.5}}};
+static_assert(std::size(kKinds) == at(FreeQuantity::Kind::kCompassCos) + 1);
 
 Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& vehicle) {
   if (quantity.kind == FreeQuantity::Kind::kParameter) {

@@ -81,7 +81,13 @@ struct FreeQuantity {
     /// Distance y_s, m, of the sensor of the speed u to the left of the vehicle's centre line. r is
     /// the yaw rate. The sensor reads u - y_s r. For the speed of a left wheel, y_s is half of the
     /// track width; for a right wheel, minus half of it.
-    kSpeedOffset
+    kSpeedOffset,
+    /// Deviation of a compass by the magnetism of the vehicle ("hard iron"). With the heading psi
+    /// and the coefficients B (kCompassSin) and C (kCompassCos), rad, it reads
+    ///
+    ///     psi + B sin psi + C cos psi
+    kCompassSin,
+    kCompassCos
   };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< for kParameter

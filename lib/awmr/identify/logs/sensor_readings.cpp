@@ -57,6 +57,7 @@ double LogSensors::read(LogChannel c, const LinearMotion& motion, double t_s) {
   }
   if (c == LogChannel::kSway) value = sway(motion);
   if (c == LogChannel::kSpeed && terms_.speed_offset) value += add_speed_offset(motion);
+  if (c == LogChannel::kHeading) value += add_deviation(value);
   return scaled(c, value);
 }
 
@@ -80,6 +81,20 @@ double LogSensors::add_speed_offset(const LinearMotion& motion) {
     row_[terms_.speed_offset->column] -= r;
   }
   return -y * r;
+}
+
+/// Deviation B sin psi + C cos psi of a compass (FreeQuantity::Kind::kCompassSin). Adds its
+/// derivatives to the row, the derivatives of psi.
+double LogSensors::add_deviation(double heading_rad) {
+  if (!terms_.compass_sin && !terms_.compass_cos) return 0.0;
+  const double b = terms_.compass_sin ? terms_.compass_sin->value : 0.0;
+  const double c = terms_.compass_cos ? terms_.compass_cos->value : 0.0;
+  const double sine = std::sin(heading_rad);
+  const double cosine = std::cos(heading_rad);
+  for (double& by : row_) by *= 1.0 + b * cosine - c * sine;
+  if (!row_.empty() && terms_.compass_sin) row_[terms_.compass_sin->column] += sine;
+  if (!row_.empty() && terms_.compass_cos) row_[terms_.compass_cos->column] += cosine;
+  return b * sine + c * cosine;
 }
 
 /// Reading of the sensor of the sway speed, which may sit off the centre of gravity or at an angle

@@ -47,6 +47,7 @@ class LogSensors {
  private:
   double sway(const LinearMotion& motion);
   double add_speed_offset(const LinearMotion& motion);
+  double add_deviation(double heading_rad);
   double scaled(LogChannel c, double value);
 
   const LogSignals& signals_;

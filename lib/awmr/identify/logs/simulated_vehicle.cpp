@@ -115,6 +115,12 @@ void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const 
     case Kind::kSpeedOffset:
       sensors.speed_offset = {number, i};
       break;
+    case Kind::kCompassSin:
+      sensors.compass_sin = {number, i};
+      break;
+    case Kind::kCompassCos:
+      sensors.compass_cos = {number, i};
+      break;
     case Kind::kBias:
       sensors.bias[c] = number;
       sensors.bias_column[c] = i;

@@ -46,6 +46,8 @@ struct SensorTerms {
   std::optional<OffsetColumn> sway_offset;
   std::optional<OffsetColumn> sway_angle;
   std::optional<OffsetColumn> speed_offset;
+  std::optional<OffsetColumn> compass_sin;
+  std::optional<OffsetColumn> compass_cos;
 
   bool any_delayed() const;
   bool any_smoothed() const;
