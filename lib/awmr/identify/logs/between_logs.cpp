@@ -219,7 +219,10 @@ LogComparison compare_parts(const std::vector<DrivingLog>& log, const LogFitOpti
   found.disagreements =
       disagreements_of({first.name, second.name}, {by_first, fit_part(second, options)}, common);
   if (!found.disagreements.empty() || !last_fifth || !(last_fifth->p_value < kMiss)) return found;
-  const auto p_value = likelihood_ratio_test(first, last, by_first, by_all, options);
+  // A second test may acquit only a fit without model error.
+  const auto p_value = common.fit.has_model_error()
+                           ? std::nullopt
+                           : likelihood_ratio_test(first, last, by_first, by_all, options);
   if (p_value && !(*p_value < kMiss)) return found;
   found.missed = last_fifth;
   if (p_value) found.missed->p_value = *p_value;

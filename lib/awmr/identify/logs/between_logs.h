@@ -64,7 +64,8 @@ struct LogComparison {
 /// intervals of no further quantity invalid. The halves may agree although predict() and
 /// likelihood_ratio_test() both find (p < 0.001) that the fit of the first half does not describe
 /// the last fifth. `missed` then contains the result, with the p value of likelihood_ratio_test().
-/// If that test is not possible, predict() alone decides.
+/// If that test is not possible, or the fit has a model error (LogFit::has_model_error()), predict()
+/// alone decides.
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common);
 
 }  // namespace awmr

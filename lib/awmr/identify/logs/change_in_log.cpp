@@ -108,19 +108,13 @@ std::optional<PartFits> fit_at_likeliest_time(const std::vector<DrivingLog>& log
   return best;
 }
 
-bool is_adequate(const LogFit& fit) {
-  return fit.usable && std::ranges::none_of(fit.noise, [](const auto& channel) {
-           return channel.second.of_the_model();
-         });
-}
-
 /// Fits a part again with Coulomb friction and a power law of both axes, unless it has no model
 /// error. Reason: a change of the vehicle can also have misled the choice of the families. The fit
 /// stops early if its errors are far above the sensor noise.
 FamilyFit with_rich_families(const std::vector<DrivingLog>& log, LogFitOptions power_law,
                              FamilyFit part) {
   constexpr double kWrong = 10.0;  // LogFit::relative_error of a model that is certainly wrong
-  if (!part.fit.usable || is_adequate(part.fit)) return part;
+  if (!part.fit.usable || !part.fit.has_model_error()) return part;
   power_law.only_s = part.options.only_s;
   power_law.bootstrap = 0;
   power_law.give_up_above = kWrong;
@@ -164,7 +158,7 @@ std::optional<ChangeInLog> find_change(const std::vector<DrivingLog>& logs,
   if (!parts) return std::nullopt;
   for (FamilyFit* part : {&parts->before, &parts->after}) {
     *part = with_rich_families(logs, power_law, std::move(*part));
-    if (!is_adequate(part->fit)) return std::nullopt;
+    if (!part->fit.usable || part->fit.has_model_error()) return std::nullopt;
   }
   ChangeInLog change{parts->t_s, changed_quantities(*parts)};
   return change.quantities.empty() ? std::nullopt : std::optional(std::move(change));

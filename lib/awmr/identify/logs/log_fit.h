@@ -50,6 +50,12 @@ struct LogFit {
   /// and `coordinates` are set.
   bool has_changes_between_rows = false;
 
+  /// True if the errors of a channel have a drift that sensor noise does not explain
+  /// (ChannelNoise::of_the_model()).
+  bool has_model_error() const {
+    return std::ranges::any_of(noise,
+                               [](const auto& channel) { return channel.second.of_the_model(); });
+  }
   /// True if the errors of a channel have a drift that is large and long compared with the noise of
   /// its sensor (ChannelNoise::overwhelms_sensor()): the model is probably wrong.
   bool has_large_drift() const {
