@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "awmr/core/random.h"
 #include "awmr/core/units.h"
 #include "awmr/trials/replay.h"
 #include "awmr/trials/steady.h"
@@ -173,13 +174,16 @@ TEST(Log, RefusesUnusableLogs) {
 }
 
 /// A drive at 1 m/s with the heading 90 deg, and two rests: at its beginning and in its middle.
-/// `course`: heading in the rows at rest. `after_deg`: heading after the second rest.
-std::string with_rests(const std::function<double(int)>& course, double after_deg = 90.0) {
+/// `course`: heading in the rows at rest. `after_deg`: heading after the second rest. `noise_deg`:
+/// standard deviation of the noise of all headings.
+std::string with_rests(const std::function<double(int)>& course, double after_deg = 90.0,
+                       double noise_deg = 0.0) {
+  Random random(1, 2);
   const auto cell = [&](int i) {
     const bool rests = i < 10 || (i >= 30 && i < 40);
     const double heading = rests ? course(i) : i < 30 ? 90.0 : after_deg;
     return std::to_string(rests ? 0.0 : 1.0 + 0.01 * (i % 3)) + "," +
-           std::to_string(heading + 0.1 * (i % 2));
+           std::to_string(heading + 0.1 * (i % 2) + noise_deg * random.normal());
   };
   return log_text("speed_mps,heading_deg", cell, 60);
 }
@@ -221,6 +225,9 @@ TEST(Log, ACourseAtRestIsSetAside) {
 TEST(Log, ACompassAtRestIsKept) {
   const auto compass = [](int) { return 90.0; };
   EXPECT_THAT(codes(accepted_log(with_rests(compass))), Not(Contains("course-at-rest")));
+  // a noisy compass, at rest and in motion
+  EXPECT_THAT(codes(accepted_log(with_rests(compass, 90.0, 10.0))),
+              Not(Contains("course-at-rest")));
   // the vehicle turns on the spot before it drives
   const auto spun = [](int i) { return i < 10 ? 9.0 * i : 90.0; };
   EXPECT_THAT(codes(accepted_log(with_rests(spun))), Not(Contains("course-at-rest")));

@@ -19,7 +19,8 @@ struct CourseAtRest {
 /// Finds the rows with an invalid heading. If the heading jumps by more than 20 deg during a rest,
 /// or at its beginning or end, the headings of all rows at rest are invalid. Exception: if the
 /// headings before and after a rest differ by more than 20 deg, somebody may have turned the
-/// vehicle by hand, so this rest does not show a jump. `present`: the rows with a heading,
+/// vehicle by hand, so this rest does not show a jump. Instead of 20 deg, a noisy compass has five
+/// standard deviations of the changes by its noise, if that is more. `present`: the rows with a heading,
 /// ascending. `speed_mps` and `heading_rad` have one value per row; the heading may wrap.
 CourseAtRest course_at_rest(std::span<const double> speed_mps, std::span<const double> heading_rad,
                             std::span<const std::size_t> present);
