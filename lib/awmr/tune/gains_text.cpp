@@ -18,20 +18,16 @@
 namespace awmr {
 namespace {
 
-Json optional_json(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
 Json score_json(const ModeScore& score) {
   const Metrics& m = score.metrics;
   return {{"objective", score.objective},
           {"completed", m.completed},
-          {"settling_time_s", optional_json(m.settling_time_s)},
-          {"overshoot_deg", optional_json(m.overshoot_deg)},
-          {"heading_iae_degs", optional_json(m.heading_iae_degs)},
-          {"heading_itae_degs2", optional_json(m.heading_itae_degs2)},
+          {"settling_time_s", value_or_null(m.settling_time_s)},
+          {"overshoot_deg", value_or_null(m.overshoot_deg)},
+          {"heading_iae_degs", value_or_null(m.heading_iae_degs)},
+          {"heading_itae_degs2", value_or_null(m.heading_itae_degs2)},
           {"speed_itae_m_s", m.speed_itae_m_s},
-          {"speed_drop_mps", optional_json(m.speed_drop_mps)},
+          {"speed_drop_mps", value_or_null(m.speed_drop_mps)},
           {"sideslip_max_deg", m.sideslip_max_deg},
           {"yaw_rate_max_degps", m.yaw_rate_max_degps},
           {"control_variation", m.control_variation},
@@ -46,8 +42,6 @@ Json active_json(const std::vector<ActiveConstraint>& active) {
   }
   return json;
 }
-
-Json interval_json(const Interval& interval) { return {interval.lo, interval.hi}; }
 
 /// The scores, by mode, then scenario.
 Json scores_json(const std::vector<ModeScore>& scores) {
@@ -168,8 +162,8 @@ Json search_json(const Tuning& tuning) {
           {"active", active_json(tuning.active)},
           {"as_good",
            {{"objective_share", kIndifferent},
-            {"mu", interval_json(tuning.mu_as_good)},
-            {"speed_mu", interval_json(tuning.speed_mu_as_good)}}},
+            {"mu", value_or_null(tuning.mu_as_good)},
+            {"speed_mu", value_or_null(tuning.speed_mu_as_good)}}},
           {"stop_reason", tuning.stop_reason},
           {"history", history_json(tuning.history)}};
 }

@@ -44,8 +44,7 @@ std::string settling_band() {
 std::string friction_text(const FrictionEffect& friction) {
   std::string text = fmt::format(
       ". Without the dry (Coulomb) friction in yaw, {:.0f} % settle: it can hold the vehicle "
-      "{:.2g} "
-      "deg from the commanded heading, and the settling band is {}",
+      "{:.2g} deg from the commanded heading, and the settling band is {}",
       100.0 * friction.share_without, friction.error_deg, settling_band());
   if (friction.observer_radps > 0.0) {
     text += fmt::format(". The observer reduces this error by a factor of 2.7 in {:.2g} s",
@@ -68,10 +67,8 @@ std::string advice_for(const std::string& scenario, YawMode mode,
     return advice +
            fmt::format(
                ". With noise-free sensors{}, {:.0f} % settle{}: {} the heading out of the settling "
-               "band, "
-               "{}. Use sensors with less noise, or filter their readings and enter the new "
-               "`noise` and "
-               "`noise_correlation_s` in vehicle.json{}",
+               "band, {}. Use sensors with less noise, or filter their readings and enter the new "
+               "`noise` and `noise_correlation_s` in vehicle.json{}",
                noise->is_of_identified ? " and the identified values of all parameters" : "",
                100.0 * noise->share_without,
                noise->time_factor > 1.0
