@@ -17,12 +17,9 @@ namespace {
 
 /// The parameters of surge and yaw are free, with initial guesses from the log only.
 LogFitOptions options_for(const std::vector<DrivingLog>& logs) {
-  LogFitOptions options;
-  options.vehicle = robot();
-  options.initial_guess = guess_from_logs(logs, options.vehicle);
-  options.free = {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta, ParameterId::kYawAlpha,
-                  ParameterId::kYawBeta,    ParameterId::kMassNorm,  ParameterId::kInertiaNorm};
-  options.guessed = options.free;
+  LogFitOptions options = guessed_from(
+      logs, {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta, ParameterId::kYawAlpha,
+             ParameterId::kYawBeta, ParameterId::kMassNorm, ParameterId::kInertiaNorm});
   options.multistart = 1;
   options.finds_delays = false;
   return options;

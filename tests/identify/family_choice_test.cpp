@@ -25,15 +25,10 @@ namespace {
 
 /// All parameters that a log can identify are free, with initial guesses from the log only.
 LogFitOptions from_nothing(const std::vector<DrivingLog>& logs) {
-  LogFitOptions options;
-  options.vehicle = robot();
-  options.initial_guess = guess_from_logs(logs, options.vehicle);
-  options.free = {ParameterId::kSurgeAlpha,  ParameterId::kSurgeBeta,
-                  ParameterId::kYawAlpha,    ParameterId::kYawBeta,
-                  ParameterId::kSwayAlpha,   ParameterId::kMassNorm,
-                  ParameterId::kInertiaNorm, ParameterId::kSteeringTimeConstant};
-  options.guessed = options.free;
-  return options;
+  return guessed_from(logs,
+                      {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta, ParameterId::kYawAlpha,
+                       ParameterId::kYawBeta, ParameterId::kSwayAlpha, ParameterId::kMassNorm,
+                       ParameterId::kInertiaNorm, ParameterId::kSteeringTimeConstant});
 }
 
 std::vector<DrivingLog> with_coulomb_friction(double coulomb, double duration_s = 10.0) {

@@ -9,8 +9,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "awmr/identify/logs/initial_guess.h"
+#include "awmr/identify/logs/log_fit_options.h"
 #include "awmr/trials/replay.h"
 #include "identify/synthetic_log.h"
 
@@ -23,6 +26,17 @@ inline void expect_recovered(const Identification& result, ParameterId id, doubl
   const Estimate& estimate = result.model[id];
   ASSERT_TRUE(estimate.value && estimate.std_error) << info(id).name;
   EXPECT_NEAR(*estimate.value, truth, deviations * *estimate.std_error) << info(id).name;
+}
+
+/// Options in which these parameters are free, with initial guesses from the log only.
+inline LogFitOptions guessed_from(const std::vector<DrivingLog>& logs,
+                                  std::vector<ParameterId> free) {
+  LogFitOptions options;
+  options.vehicle = robot();
+  options.initial_guess = guess_from_logs(logs, options.vehicle);
+  options.free = std::move(free);
+  options.guessed = options.free;
+  return options;
 }
 
 /// Options for the power law in surge and yaw, for tests that do not test the choice of the family.

@@ -24,7 +24,6 @@ double far_rad(std::span<const double> heading_rad, std::span<const std::size_t>
                const auto& rests) {
   constexpr double kFar_rad = 20.0 * pi<double>() / 180.0;
   constexpr double kStandardDeviations = 5.0;
-  constexpr double kMedianOfNormal = 0.6745;  // median of |x| for a standard normal x
   std::vector<double> second;
   for (std::size_t i = 1; i + 1 < present.size(); ++i) {
     if (rests(present[i - 1]) || rests(present[i]) || rests(present[i + 1])) continue;
@@ -34,7 +33,7 @@ double far_rad(std::span<const double> heading_rad, std::span<const std::size_t>
   }
   if (second.empty()) return kFar_rad;
   // Variances: 6 of a second difference, 2 of a change, in units of the variance of the noise.
-  const double change_std = median(second) / kMedianOfNormal * std::sqrt(2.0 / 6.0);
+  const double change_std = kStdPerMad * median(second) * std::sqrt(2.0 / 6.0);
   return std::max(kFar_rad, kStandardDeviations * change_std);
 }
 

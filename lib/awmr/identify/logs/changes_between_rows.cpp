@@ -132,7 +132,7 @@ bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& poin
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   std::vector<FreeQuantity> delays;  // a quick test first
   for (const auto kind : {FreeQuantity::Kind::kDelay, FreeQuantity::Kind::kSteeringDelay}) {
-    if (!has_kind(quantities, kind)) delays.push_back(free_term(kind));
+    if (!has(quantities, kind)) delays.push_back(free_term(kind));
   }
   if (!uncertain_times(problem, point, delays).are_likelier) return false;
   std::vector<FreeQuantity> more = further_terms(problem);

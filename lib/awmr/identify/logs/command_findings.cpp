@@ -67,7 +67,7 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
                      "includes it. Set motor.time_constant_s in the vehicle file to this value",
                      lag.value, lag.error)});
   }
-  const bool with_lag = has_kind(fit.quantities, FreeQuantity::Kind::kMotorLag);
+  const bool with_lag = has(fit.quantities, FreeQuantity::Kind::kMotorLag);
   for (const FoundTerm& input : found_terms(fit, FreeQuantity::Kind::kDelay)) {
     findings.push_back(dead_time_finding(input, with_lag, file));
   }
@@ -87,23 +87,16 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
 
 /// Finding `compass-deviation` about the coefficients B and C of the compass (FreeQuantity::Kind).
 std::vector<Finding> compass_findings(const LogFit& fit, const std::string& file) {
-  double squares = 0.0;
-  double variance = 0.0;  // of the root of `squares`, times `squares`
-  for (const auto kind : {FreeQuantity::Kind::kCompassSin, FreeQuantity::Kind::kCompassCos}) {
-    for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-      if (fit.quantities[i].kind != kind || !fit.refusal_reason[i].empty()) continue;
-      squares += std::pow(fit.coordinates[i], 2);
-      variance += std::pow(fit.coordinates[i] * fit.error_of(i), 2);
-    }
-  }
-  const double largest = std::sqrt(squares);
-  if (!(squares > 2.0 * std::sqrt(variance))) return {};
+  const Identified deviation =
+      length_of(identified(fit, FreeQuantity::Kind::kCompassSin).value_or(Identified{}),
+                identified(fit, FreeQuantity::Kind::kCompassCos).value_or(Identified{}));
+  if (!is_significant(deviation)) return {};
   return {{file, 0, Severity::kWarning, "compass-deviation",
            fmt::format("the error of heading_deg varies with the heading, by up to {:.1f} +- "
                        "{:.1f} deg to both sides, as by magnetic parts of the vehicle. The fit "
                        "compensates for this, but simulations and tuned gains ignore it; calibrate "
-                       "the compass ({})",
-                       degrees(largest), degrees(std::sqrt(variance) / largest), "awmr compass")}};
+                       "the compass (awmr compass)",
+                       degrees(deviation.value), degrees(deviation.error))}};
 }
 
 std::string sensor_delay_text(const FoundTerm& delay, const LogFit&) {
@@ -252,7 +245,7 @@ std::string trim_text(const FoundTerm& trim, const LogFit& fit) {
       "the {} at a steering angle of 0; the fit compensates for this. Centre the "
       "linkage or the servo{}",
       degrees(std::abs(trim.value)), degrees(trim.error), trim.value > 0.0 ? "left" : "right",
-      has_kind(fit.quantities, FreeQuantity::Kind::kForceImbalance)
+      has(fit.quantities, FreeQuantity::Kind::kForceImbalance)
           ? ""
           : ". If the left and right commands are always equal, motors that are "
             "stronger on one side have the same effect");
@@ -281,8 +274,7 @@ std::string imbalance_text(const FoundTerm& imbalance, const LogFit& fit) {
       "sides{}",
       imbalance.value > 0.0 ? "right" : "left", 100.0 * std::abs(imbalance.value),
       100.0 * imbalance.error,
-      imbalance_advice(imbalance.value,
-                       has_kind(fit.quantities, FreeQuantity::Kind::kSteeringTrim)));
+      imbalance_advice(imbalance.value, has(fit.quantities, FreeQuantity::Kind::kSteeringTrim)));
 }
 
 /// Largest loss of force, as a share of the force without saturation, at which the messages call
@@ -291,11 +283,8 @@ constexpr double kLinear = 0.05;
 
 /// Fitted sharpness n of the saturation (FreeQuantity::Kind). The default if n was not fitted.
 double sharpness_of(const LogFit& fit) {
-  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    const FreeQuantity& q = fit.quantities[i];
-    if (q.kind == FreeQuantity::Kind::kSaturationSharpness) return q.value(fit.coordinates[i]);
-  }
-  return kDefaultSharpness;
+  const auto i = place_of(fit.quantities, FreeQuantity::Kind::kSaturationSharpness);
+  return i ? fit.quantities[*i].value(fit.coordinates[*i]) : kDefaultSharpness;
 }
 
 /// Part of a message about a nonlinear force: says that intervals are withdrawn, if they are.

@@ -92,17 +92,15 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
     terms.push_back({extra_force(ExtraForce::kTurnDragExponent), 1.0});
     terms.push_back({extra_force(ExtraForce::kTurnDragSpeedExponent), 0.5});
   }
-  for (const auto& [one, other] : {std::pair(ExtraForce::kSlopeX, ExtraForce::kSlopeY),
-                                   std::pair(ExtraForce::kSlopeY, ExtraForce::kSlopeX)}) {
-    if (candidate.quantity.is(one)) terms.push_back({extra_force(other), 0.0});
-  }
+  using Kind = FreeQuantity::Kind;
   for (const auto& [one, other] :
-       {std::pair(FreeQuantity::Kind::kCompassSin, FreeQuantity::Kind::kCompassCos),
-        std::pair(FreeQuantity::Kind::kCompassCos, FreeQuantity::Kind::kCompassSin)}) {
-    if (candidate.quantity.kind == one) terms.push_back({free_term(other), 0.0});
+       {std::pair(extra_force(ExtraForce::kSlopeX), extra_force(ExtraForce::kSlopeY)),
+        std::pair(free_term(Kind::kCompassSin), free_term(Kind::kCompassCos))}) {
+    if (candidate.quantity.name() == one.name()) terms.push_back({other, 0.0});
+    if (candidate.quantity.name() == other.name()) terms.push_back({one, 0.0});
   }
-  if (candidate.quantity.kind == FreeQuantity::Kind::kForceSaturation) {
-    const FreeQuantity sharpness = free_term(FreeQuantity::Kind::kSaturationSharpness);
+  if (candidate.quantity.kind == Kind::kForceSaturation) {
+    const FreeQuantity sharpness = free_term(Kind::kSaturationSharpness);
     terms.push_back({sharpness, to_coordinate(sharpness.scale, kDefaultSharpness)});
   }
   return terms;
@@ -116,12 +114,8 @@ constexpr double kFlattestTurnDrag = 0.2;
 /// True if the fit has a drag in turns with an exponent below kFlattestTurnDrag.
 bool is_turn_drag_of_any_rate(const NoiseIteration& fit) {
   const std::vector<FreeQuantity>& quantities = fit.problem.model.quantities;
-  for (std::size_t i = 0; i < quantities.size(); ++i) {
-    if (quantities[i].is(ExtraForce::kTurnDragExponent)) {
-      return fit.point.coordinates[i] < kFlattestTurnDrag;
-    }
-  }
-  return false;
+  const auto i = place_of(quantities, ExtraForce::kTurnDragExponent);
+  return i && fit.point.coordinates[*i] < kFlattestTurnDrag;
 }
 
 /// A candidate term is tried only if its significance is at least this fraction of that of the most

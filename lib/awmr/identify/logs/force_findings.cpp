@@ -13,31 +13,9 @@
 namespace awmr {
 namespace {
 
-// A force is reported if it exceeds this number of its standard errors. If it does not, it can be
-// due to noise.
-constexpr double kStandardErrors = 2.0;
-
-/// An identified quantity with its standard error.
-struct FoundForce {
-  double value;
-  double error;
-};
-
-std::optional<FoundForce> found_force(const LogFit& fit, ExtraForce force) {
-  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    const FreeQuantity& q = fit.quantities[i];
-    if (!q.is(force) || !fit.refusal_reason[i].empty()) continue;
-    const double x = fit.coordinates[i];
-    const Eigen::Index row = eigen_index(i);
-    return FoundForce{q.value(x), q.jacobian(x) * std::sqrt(fit.covariance(row, row))};
-  }
-  return std::nullopt;
-}
-
-std::optional<FoundForce> significant(const LogFit& fit, ExtraForce force) {
-  const auto found = found_force(fit, force);
-  if (!found || !(std::abs(found->value) > kStandardErrors * found->error)) return std::nullopt;
-  return found;
+std::optional<Identified> significant(const LogFit& fit, ExtraForce force) {
+  const auto found = identified(fit, force);
+  return found && is_significant(*found) ? found : std::nullopt;
 }
 
 double fitted_value(const LogFit& fit, ParameterId id) {
@@ -49,7 +27,7 @@ struct FoundStribeck {
   std::string_view axis;  ///< "surge." or "yaw.", with which parameter names begin
   std::string_view what;
   std::string_view unit;
-  FoundForce force;
+  Identified force;
   double coulomb;               ///< Coulomb friction c
   std::optional<double> speed;  ///< speed scale w_s; empty if not identified
 
@@ -62,7 +40,7 @@ std::vector<FoundStribeck> found_stribeck(const LogFit& fit) {
                        std::string_view axis, std::string_view what, std::string_view unit) {
     const auto one = significant(fit, force);
     if (!one) return;
-    const auto scale = found_force(fit, speed);
+    const auto scale = identified(fit, speed);
     found.push_back({axis, what, unit, *one, fitted_value(fit, coulomb),
                      scale ? std::optional(scale->value) : std::nullopt});
   };
@@ -94,19 +72,18 @@ std::vector<Finding> stribeck_findings(const LogFit& fit, const std::string& fil
 
 std::vector<Finding> slope_findings(const LogFit& fit, const std::string& file) {
   constexpr double kGravity_mps2 = 9.81;
-  const auto x = found_force(fit, ExtraForce::kSlopeX);
-  const auto y = found_force(fit, ExtraForce::kSlopeY);
+  const auto x = identified(fit, ExtraForce::kSlopeX);
+  const auto y = identified(fit, ExtraForce::kSlopeY);
   if (!x || !y) return {};
-  const double size = std::hypot(x->value, y->value);
-  const double error = std::hypot(x->error * x->value, y->error * y->value) / size;
-  if (!(size > kStandardErrors * error)) return {};
+  const Identified slope = length_of(*x, *y);
+  if (!is_significant(slope)) return {};
   return {{file, 0, Severity::kWarning, "slope",
            fmt::format("a constant force pushes the vehicle towards the heading {:.0f} deg with "
                        "{:.3f} +- {:.3f} m/s^2, like ground that falls by {:.2f} deg. The fit "
                        "compensates for this, but simulations ignore it; record logs on level "
                        "ground",
-                       degrees(std::atan2(y->value, x->value)), size, error,
-                       degrees(std::asin(std::min(1.0, size / kGravity_mps2))))}};
+                       degrees(std::atan2(y->value, x->value)), slope.value, slope.error,
+                       degrees(std::asin(std::min(1.0, slope.value / kGravity_mps2))))}};
 }
 
 std::vector<Finding> side_pull_findings(const LogFit& fit, const std::string& file) {
@@ -166,6 +143,16 @@ std::vector<Finding> force_excess_findings(const LogFit& fit, const std::string&
 }
 
 }  // namespace
+
+bool is_significant(const Identified& quantity) {
+  constexpr double kStandardErrors = 2.0;
+  return std::abs(quantity.value) > kStandardErrors * quantity.error;
+}
+
+Identified length_of(const Identified& x, const Identified& y) {
+  const double length = std::hypot(x.value, y.value);
+  return {length, std::hypot(x.error * x.value, y.error * y.value) / length};
+}
 
 std::vector<Finding> force_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings = stribeck_findings(fit, file);

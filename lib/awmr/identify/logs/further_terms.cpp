@@ -30,7 +30,7 @@ double largest_command(const LogProblem& problem) {
 void add_times(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   using Kind = FreeQuantity::Kind;
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
-  if (!has_kind(quantities, Kind::kDelay)) found.push_back(free_term(Kind::kDelay));
+  if (!has(quantities, Kind::kDelay)) found.push_back(free_term(Kind::kDelay));
   for (const auto& [measured, noise] : problem.model.noise) {
     const LogChannel channel = measured == LogChannel::kY ? LogChannel::kX : measured;
     if (has_kind(quantities, Kind::kSensorDelay, channel) ||
@@ -72,32 +72,32 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   for (const auto& [force, coulomb] :
        {std::pair(ExtraForce::kSurgeStribeck, ParameterId::kSurgeCoulomb),
         std::pair(ExtraForce::kYawStribeck, ParameterId::kYawCoulomb)}) {
-    if (place_of(quantities, coulomb) && !has_force(quantities, force))
+    if (place_of(quantities, coulomb) && !has(quantities, force))
       found.push_back(extra_force(force));
   }
   const bool has_heading = problem.model.noise.contains(LogChannel::kHeading) ||
                            problem.model.noise.contains(LogChannel::kX);
-  if (has_heading && !has_force(quantities, ExtraForce::kSlopeX)) {
+  if (has_heading && !has(quantities, ExtraForce::kSlopeX)) {
     found.push_back(extra_force(ExtraForce::kSlopeX));
     found.push_back(extra_force(ExtraForce::kSlopeY));
   }
   const bool shows_yaw = has_heading || problem.model.noise.contains(LogChannel::kYawRate);
-  if (shows_yaw && !has_force(quantities, ExtraForce::kSidePull)) {
+  if (shows_yaw && !has(quantities, ExtraForce::kSidePull)) {
     found.push_back(extra_force(ExtraForce::kSidePull));
   }
   const bool turns =
       any_log(problem, has_steering_changes) || any_log(problem, has_force_difference);
-  if (turns && !has_force(quantities, ExtraForce::kTurnDrag)) {
+  if (turns && !has(quantities, ExtraForce::kTurnDrag)) {
     found.push_back(extra_force(ExtraForce::kTurnDrag));
   }
   if (!any_log(problem, has_both_directions)) return;
   // A fit contains either wheel slip or an excess of wheel forces, because the slip of wheel_slip.h
   // does not include this excess.
-  if (!has_force_excess(quantities) && !has_kind(quantities, FreeQuantity::Kind::kWheelSlip)) {
+  if (!has_force_excess(quantities) && !has(quantities, FreeQuantity::Kind::kWheelSlip)) {
     found.push_back(extra_force(ExtraForce::kBrakeForce));
     found.push_back(extra_force(ExtraForce::kReverseForce));
   }
-  if (!has_force(quantities, ExtraForce::kBackwardDrag)) {
+  if (!has(quantities, ExtraForce::kBackwardDrag)) {
     found.push_back(extra_force(ExtraForce::kBackwardDrag));
   }
 }
@@ -144,7 +144,7 @@ void add_speed_offset(const LogProblem& problem, std::vector<FreeQuantity>& foun
   const bool turns =
       any_log(problem, has_steering_changes) || any_log(problem, has_force_difference);
   if (!measured.contains(LogChannel::kSpeed) || !shows_yaw || !turns) return;
-  if (has_kind(problem.model.quantities, FreeQuantity::Kind::kSpeedOffset)) return;
+  if (has(problem.model.quantities, FreeQuantity::Kind::kSpeedOffset)) return;
   found.push_back(free_term(FreeQuantity::Kind::kSpeedOffset));
 }
 
@@ -157,12 +157,12 @@ void add_steering(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   for (const Kind kind : {Kind::kSteeringTrim, Kind::kSteeringDeadBand, Kind::kSteeringAsymmetry,
                           Kind::kSteeringCurve}) {
     const bool is_of_command = kind != Kind::kSteeringTrim;
-    if (has_kind(problem.model.quantities, kind)) continue;
+    if (has(problem.model.quantities, kind)) continue;
     if (!is_of_command || any_log(problem, has_command)) found.push_back(free_term(kind));
   }
-  const bool leaves_scale_open = has_kind(problem.model.quantities, Kind::kSteeringAsymmetry) ||
-                                 has_kind(problem.model.quantities, Kind::kSteeringCurve);
-  if (leaves_scale_open && !has_kind(problem.model.quantities, Kind::kSteeringScale)) {
+  const bool leaves_scale_open = has(problem.model.quantities, Kind::kSteeringAsymmetry) ||
+                                 has(problem.model.quantities, Kind::kSteeringCurve);
+  if (leaves_scale_open && !has(problem.model.quantities, Kind::kSteeringScale)) {
     found.push_back(free_term(Kind::kSteeringScale));
   }
 }
@@ -220,18 +220,18 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   // If the fit had no delay of the steering, the free time constant of the servo would absorb the
   // servo's dead time.
   if (place_of(quantities, ParameterId::kSteeringTimeConstant) &&
-      !has_kind(quantities, Kind::kSteeringDelay)) {
+      !has(quantities, Kind::kSteeringDelay)) {
     found.push_back(free_term(Kind::kSteeringDelay));
   }
   add_steering(problem, found);
-  if (!has_kind(quantities, Kind::kForceImbalance) && any_log(problem, has_force_difference)) {
+  if (!has(quantities, Kind::kForceImbalance) && any_log(problem, has_force_difference)) {
     found.push_back(free_term(Kind::kForceImbalance));
   }
   const double full_command = largest_command(problem);
   // A fit contains either an exponent or a saturation of the forces. Both together could fit every
   // curve, even one with wrong forces at small commands.
-  if (full_command > 0.0 && !has_kind(quantities, Kind::kForceExponent) &&
-      !has_kind(quantities, Kind::kForceSaturation)) {
+  if (full_command > 0.0 && !has(quantities, Kind::kForceExponent) &&
+      !has(quantities, Kind::kForceSaturation)) {
     found.push_back(free_term(Kind::kForceExponent));
     found.push_back(force_saturation(full_command));
   }
@@ -239,13 +239,13 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   add_scales(problem, found);
   add_slip(problem, found);
   if (problem.model.noise.contains(LogChannel::kSway)) {
-    if (!has_kind(quantities, Kind::kSwayOffset)) found.push_back(free_term(Kind::kSwayOffset));
-    if (!has_kind(quantities, Kind::kSwayAngle)) found.push_back(free_term(Kind::kSwayAngle));
+    if (!has(quantities, Kind::kSwayOffset)) found.push_back(free_term(Kind::kSwayOffset));
+    if (!has(quantities, Kind::kSwayAngle)) found.push_back(free_term(Kind::kSwayAngle));
   }
   add_speed_offset(problem, found);
   for (const Kind kind : {Kind::kCompassSin, Kind::kCompassCos}) {
     const bool is_measured = problem.model.noise.contains(LogChannel::kHeading);
-    if (is_measured && !has_kind(quantities, kind)) found.push_back(free_term(kind));
+    if (is_measured && !has(quantities, kind)) found.push_back(free_term(kind));
   }
   return found;
 }

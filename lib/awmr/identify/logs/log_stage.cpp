@@ -300,9 +300,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
     return again;
   }
   FamilyFit chosen = fit_families(logs, power_law, options, std::move(first), stage);
-  const bool is_adequate =
-      std::ranges::find(stage.findings, "model-inadequate", &Finding::code) == stage.findings.end();
-  const auto speed_control = find_speed_control(vehicle, logs, chosen, is_adequate);
+  const auto speed_control = find_speed_control(vehicle, logs, chosen);
   if (speed_control && speed_control->withdraws) stage.withdraws_intervals = true;
   if (chosen.fit.usable && has_impossible_servo(chosen.fit)) {
     stage.withdraws_intervals = true;

@@ -192,29 +192,14 @@ FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio) {
   return quantity;
 }
 
-bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind) {
-  return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.kind == kind; });
-}
-
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind,
               LogChannel channel) {
   return std::ranges::any_of(
       quantities, [&](const FreeQuantity& q) { return q.kind == kind && q.channel == channel; });
 }
 
-bool has_force(const std::vector<FreeQuantity>& quantities, ExtraForce force) {
-  return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.is(force); });
-}
-
 bool has_force_excess(const std::vector<FreeQuantity>& quantities) {
   return std::ranges::any_of(quantities, &FreeQuantity::is_force_excess);
-}
-
-std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities, ParameterId id) {
-  const auto found = std::find_if(quantities.begin(), quantities.end(),
-                                  [id](const FreeQuantity& q) { return q.is(id); });
-  if (found == quantities.end()) return std::nullopt;
-  return at(found - quantities.begin());
 }
 
 namespace {

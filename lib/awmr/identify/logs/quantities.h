@@ -115,6 +115,7 @@ struct FreeQuantity {
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
   bool is(ExtraForce one) const { return kind == Kind::kExtraForce && force == one; }
+  bool is(Kind one) const { return kind == one; }
   bool is_stribeck_speed() const {
     return is(ExtraForce::kSurgeStribeckSpeed) || is(ExtraForce::kYawStribeckSpeed);
   }
@@ -199,13 +200,22 @@ bool is_late_commands(const FreeTerm& term);
 FreeTerm stribeck_speed_term(ExtraForce force, double fastest);
 inline constexpr double kStribeckShare = 0.1;  ///< initial guess of w_s over `fastest`
 
-bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind);
+/// Index of the first quantity that is `what`: a ParameterId, an ExtraForce or a Kind. Empty if
+/// there is none.
+template <class What>
+std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities, What what) {
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if (quantities[i].is(what)) return i;
+  }
+  return std::nullopt;
+}
+template <class What>
+bool has(const std::vector<FreeQuantity>& quantities, What what) {
+  return place_of(quantities, what).has_value();
+}
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind,
               LogChannel channel);
-bool has_force(const std::vector<FreeQuantity>& quantities, ExtraForce force);
 bool has_force_excess(const std::vector<FreeQuantity>& quantities);
-/// Index of a parameter among the quantities; empty if it is not free.
-std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities, ParameterId id);
 
 /// Free quantities of a fit, in the order of FreeQuantity::Kind.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);

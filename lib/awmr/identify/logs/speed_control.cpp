@@ -94,10 +94,11 @@ std::optional<double> measured_ratio_mps(const Vehicle& vehicle,
 
 std::optional<SpeedControl> find_speed_control(const Vehicle& vehicle,
                                                const std::vector<DrivingLog>& logs,
-                                               const FamilyFit& chosen, bool is_adequate) {
+                                               const FamilyFit& chosen) {
   // Largest errors of a right model, divided by the sensor noise. A speed controller adds dynamics
   // of its own, which leave larger errors.
   constexpr double kErrorOfDrag = 1.5;
+  const bool is_adequate = !chosen.fit.has_model_error();
   const auto measured = measured_ratio_mps(vehicle, logs, is_adequate);
   const auto fitted = fitted_ratio_mps(vehicle, logs, chosen);
   if (!measured && !fitted) return std::nullopt;

@@ -24,8 +24,8 @@ struct SpeedControl {
 ///
 ///         tau_speed = a1 u,   tau_turn = a3 r = d^2 a1 r
 ///
-///   - The measured steady speeds of the wheels are proportional to their commands. If the model
-///     describes the logs (`is_adequate`), only speeds in turns with different commands left and
+///   - The measured steady speeds of the wheels are proportional to their commands. If the fit
+///     has no model error (LogFit::has_model_error()), only speeds in turns with different commands left and
 ///     right count: for a vehicle without speed controller, inner and outer wheels then have
 ///     different ratios, unless its only resistance is motor drag.
 ///
@@ -34,7 +34,7 @@ struct SpeedControl {
 /// below 1.5), and the first sign is present too.
 std::optional<SpeedControl> find_speed_control(const Vehicle& vehicle,
                                                const std::vector<DrivingLog>& logs,
-                                               const FamilyFit& chosen, bool is_adequate);
+                                               const FamilyFit& chosen);
 
 Finding speed_control_finding(const SpeedControl& found, const std::string& file);
 

@@ -151,7 +151,7 @@ std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFi
 
 void widen_by_steering_scale(const std::vector<DrivingLog>& logs, FamilyFit& chosen) {
   LogFit& fit = chosen.fit;
-  const bool has_scale = has_kind(fit.quantities, FreeQuantity::Kind::kSteeringScale);
+  const bool has_scale = has(fit.quantities, FreeQuantity::Kind::kSteeringScale);
   const double scale = possible_scale(fit);
   if (!fit.usable || has_scale || scale == 1.0) return;
   const LogFit other = fit_with_scale(logs, chosen, scale).fit;

@@ -93,7 +93,7 @@ std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, E
 
 bool has_motor_lag(const LogModel& model) {
   return model.vehicle.motor_time_constant_s ||
-         has_kind(model.quantities, FreeQuantity::Kind::kMotorLag);
+         has(model.quantities, FreeQuantity::Kind::kMotorLag);
 }
 
 std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled, Loss loss) {
@@ -135,7 +135,7 @@ std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& set
 }
 
 std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled, Loss loss) {
-  if (has_kind(settled.problem.model.quantities, FreeQuantity::Kind::kServoRate)) return {};
+  if (has(settled.problem.model.quantities, FreeQuantity::Kind::kServoRate)) return {};
   const double demanded_radps = demanded_rate_radps(settled);
   if (!(demanded_radps > 0.0)) return {};
   const NoiseIteration without = with_largest_steering(settled, loss);
