@@ -198,15 +198,16 @@ void add_filter(const CoastData& data, const CoastCandidate& plain, CoastModel& 
   model.other = competitor(plain, filters[1], best, fit, data);
 }
 
+/// Speed below which a residual is an integration error, m/s.
+double exact_mps(const std::vector<CoastCurve>& curves) { return 1e-4 * highest_speed_mps(curves); }
+
 /// True if the fit `given`, without a filter and with the surge law fixed, describes the curves:
-/// its residuals are white, and a filter does not lower AICc.
+/// its residuals are integration errors, or they are white and a filter does not lower AICc.
 bool is_described(const CoastData& data, const CoastCandidate& given) {
+  if (given.noise.std() < exact_mps(data.curves)) return true;
   return !(given.noise.drift_std > 0.0) &&
          !(fit_once(data, fast_filter(data, given.at), 0.0).aicc < given.aicc);
 }
-
-/// Speed below which a residual is an integration error, m/s.
-double exact_mps(const std::vector<CoastCurve>& curves) { return 1e-4 * highest_speed_mps(curves); }
 
 /// The data of the curves for one surge law.
 CoastData data_of(const CoastReadings& readings, const SteadyFit& surge) {
@@ -216,10 +217,13 @@ CoastData data_of(const CoastReadings& readings, const SteadyFit& surge) {
 }
 
 /// The best model of the curves for one surge law, which may vary within its covariance: without a
-/// filter or, if AICc is lower, with one.
+/// filter or, if AICc is lower, with one. A filter would correlate the residuals of a fit without
+/// it, so it is not tried if they are white.
 CoastCandidate best_candidate_of(const CoastData& data) {
   CoastCandidate plain = fit_candidate(data, {guess_log_mass(data.curves, data.surge.law())});
-  if (std::ranges::any_of(data.curves, &CoastCurve::of_bins) || !std::isfinite(plain.aicc)) {
+  const bool is_white = !(plain.noise.drift_std > 0.0);
+  if (std::ranges::any_of(data.curves, &CoastCurve::of_bins) || !std::isfinite(plain.aicc) ||
+      is_white) {
     return plain;
   }
   CoastCandidate filtered = fit_filters(data, plain.at).front();
@@ -275,10 +279,7 @@ CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& su
   const CoastData data = data_of(readings, surge);
   const CoastCandidate given = fit_once(data, {guess_log_mass(curves, surge.law())}, 0.0);
   CoastModel model{.start = given.at, .other = {}, .noise = {}};
-  if (!std::isfinite(given.aicc) || given.noise.std() < exact_mps(curves) ||
-      is_described(data, given)) {
-    return model;
-  }
+  if (!std::isfinite(given.aicc) || is_described(data, given)) return model;
   const CoastCandidate plain = fit_candidate(data, given.at);
   if (!std::isfinite(plain.aicc)) return model;
   model.noise = plain.noise;

@@ -60,7 +60,8 @@ T filtered(const T& y, const T& u, const T& next, const T& h, const T& lag_s) {
 /// Residuals of one curve: modelled minus measured speeds. Parameters: see CoastProblem.
 struct CoastResidual {
   const CoastCurve* curve;
-  double longest_step_s;
+  /// Longest integration step before each sample, s.
+  std::vector<double> longest_step_s;
   /// True: derivatives with respect to c or q are needed, so the closed form is not used.
   bool derivative_wanted = false;
   bool has_filter = false;
@@ -83,7 +84,7 @@ struct CoastResidual {
         if (closed) {
           y = coasted(initial[0], *beta, k, T(T(t_s) - initial[1]));
         } else {
-          const double count = (t_s - value_of(at_s)) / longest_step_s;
+          const double count = (t_s - value_of(at_s)) / longest_step_s[i];
           if (!(count < kMaximumSteps)) return false;  // Ceres rejects this point
           const int steps = 1 + static_cast<int>(count);
           const T h = (T(t_s) - at_s) / static_cast<double>(steps);
@@ -128,13 +129,36 @@ struct LawPrior {
 
 using LawCost = ceres::AutoDiffCostFunction<LawPrior, ceres::DYNAMIC, 1, 1, 1, 1>;
 
-/// Longest step h of the Runge-Kutta method. Its error over one time constant T of the motion is
-/// (h/T)^4/120 of the speed: 2e-8 for T = 0.05 s.
-constexpr double kLongestStep_s = 2e-3;
-/// Longest integration step h in a fit with a filter in the speed sensor, divided by the time
-/// constant T of the deceleration. filtered() takes the speed as linear within a step, an error of
-/// (h/T)^2/8 = 1e-5 of the speed.
-constexpr double kFilterStep = 0.01;
+/// Time constant m' u/g(u) of the deceleration at the speed u, s.
+double time_constant_s(const Resistance<double>& law, double mass_norm, double speed_mps) {
+  return mass_norm * speed_mps / law.at(speed_mps);
+}
+
+/// Longest integration step h before each sample of the curve, s, for the time constant T of the
+/// deceleration, which is smallest at low speeds (time_constant_s() for the measured speeds):
+///   - without a filter in the speed sensor, h = T/50. The error of the Runge-Kutta method over one
+///     time constant is (h/T)^4/120 of the speed, 1e-9, and 1e-7 if the guess of m' is too large by
+///     a factor of 3;
+///   - with a filter, h = T/100 for T at the highest speed of all curves, `fall_s`. filtered() takes
+///     the speed as linear within a step, an error of (h/T)^2/8 = 1e-5 of the speed.
+/// Steps are never below 2 ms, because T is 0 at rest if b < 1. These steps do not depend on the
+/// parameters of the search, so that the cost is smooth.
+std::vector<double> longest_steps_s(const CoastCurve& curve, const Resistance<double>& law,
+                                    double mass_norm, bool has_filter, double fall_s) {
+  constexpr double kShortest_s = 2e-3;
+  constexpr double kStep = 0.02;
+  constexpr double kFilterStep = 0.01;
+  std::vector<double> steps_s;
+  steps_s.reserve(curve.speed_mps.size());
+  for (const double speed_mps : curve.speed_mps) {
+    const double step_s = has_filter        ? kFilterStep * fall_s
+                          : speed_mps > 0.0 ? kStep * time_constant_s(law, mass_norm, speed_mps)
+                                            : 0.0;
+    steps_s.push_back(std::max(kShortest_s, step_s));
+  }
+  return steps_s;
+}
+
 /// Smallest time constant T of a filter in a search, s; T = 0 would be a division by 0.
 constexpr double kShortestLag_s = 1e-4;
 
@@ -180,14 +204,14 @@ CoastProblem::CoastProblem(const std::vector<CoastCurve>& curves,
     : curves_(&curves), theta_(surge), at_(start), given_law_(surge) {
   const bool has_filter = start.lag_s > 0.0;
   const Resistance<double> law{std::exp(surge[0]), surge[1], 0.0, surge[2], surge[3]};
-  const double step_s =
-      has_filter ? std::max(kLongestStep_s, kFilterStep * fall_time_s(curves, law, start.log_mass))
-                 : kLongestStep_s;
+  const double mass_norm = std::exp(start.log_mass);
+  const double fall_s = fall_time_s(curves, law, start.log_mass);
   initial_.reserve(curves.size());
   for (const CoastCurve& curve : curves) {
     initial_.push_back(initial_state_of(curve));
     auto* cost = new CoastCost(new CoastResidual{.curve = &curve,
-                                                 .longest_step_s = step_s,
+                                                 .longest_step_s = longest_steps_s(
+                                                     curve, law, mass_norm, has_filter, fall_s),
                                                  .derivative_wanted = terms_free,
                                                  .has_filter = has_filter},
                                static_cast<int>(curve.t_s.size()));
@@ -237,8 +261,22 @@ void CoastProblem::fix_time(std::size_t run) {
   problem_.SetManifold(initial_[run].block, new ceres::SubsetManifold(2, {1}));
 }
 
+void CoastProblem::minimise() {
+  // A last step of 1e-10 of the parameters, or of 1e-5 standard errors (100 rows), changes no digit
+  // that is printed. The tolerances of exact_options() need twice as many steps.
+  ceres::Solver::Options options = exact_options();
+  options.parameter_tolerance = 1e-10;
+  options.function_tolerance = 1e-12;
+  options.max_num_line_search_step_size_iterations = 0;  // twice as fast as with line searches
+  ceres::Solve(options, &problem_, &summary_);
+  if (summary_.IsSolutionUsable()) return;
+  options.max_num_line_search_step_size_iterations =
+      exact_options().max_num_line_search_step_size_iterations;
+  ceres::Solve(options, &problem_, &summary_);
+}
+
 void CoastProblem::search() {
-  ceres::Solve(exact_options(), &problem_, &summary_);
+  minimise();
   // If the fitted t0 is before the first sample, the record has no plateau and the curve does not
   // separate t0 from u0. The search then fixes t0 at the first sample.
   bool again = false;
@@ -248,7 +286,7 @@ void CoastProblem::search() {
     fix_time(i);
     again = true;
   }
-  if (again) ceres::Solve(exact_options(), &problem_, &summary_);
+  if (again) minimise();
 }
 
 void CoastProblem::solve() {
@@ -330,7 +368,7 @@ double highest_speed_mps(const std::vector<CoastCurve>& curves) {
 double fall_time_s(const std::vector<CoastCurve>& curves, const Resistance<double>& law,
                    double log_mass) {
   const double highest_mps = highest_speed_mps(curves);
-  return std::exp(log_mass) * highest_mps / law.at(highest_mps);
+  return time_constant_s(law, std::exp(log_mass), highest_mps);
 }
 
 double guess_log_mass(const std::vector<CoastCurve>& curves, const Resistance<double>& law) {

@@ -81,6 +81,7 @@ class CoastProblem {
   int free_count() const;
 
  private:
+  void minimise();
   void search();
   void free_short_leads();
   void fix_time(std::size_t run);
