@@ -445,7 +445,7 @@ TEST(Families, AreComparedInMostRowsWithoutAFewLargeErrors) {
 
 TEST(Windows, PartsContainEverySampleOnce) {
   const std::vector<DrivingLog> logs{drive(kTruths[0], 4)};
-  for (const FitWindow& window : fit_windows(logs)) {
+  for (const FitWindow& window : fit_windows(logs, kWindow_s)) {
     std::size_t samples = 0, next = window.rows.begin;
     for (const FitWindow& part : parts_of(window, 2.5)) {
       EXPECT_EQ(part.rows.begin, next);

@@ -476,11 +476,11 @@ DrivingLog cut(DrivingLog log, std::size_t rows) {
 
 TEST(LateLog, DoesNotFitTheFirstSecondOfALogThatBeginsInMotion) {
   const std::vector<DrivingLog> from_rest = {drive(kTruths[1], 8)};
-  EXPECT_EQ(fit_windows(from_rest).front().rows.begin, 0U);
+  EXPECT_EQ(fit_windows(from_rest, kWindow_s).front().rows.begin, 0U);
   constexpr std::size_t kCut = 600;
   ASSERT_GT(from_rest[0][LogChannel::kSpeed]->value[kCut], 0.1);
   const std::vector<DrivingLog> in_motion = {cut(from_rest[0], kCut)};
-  EXPECT_EQ(fit_windows(in_motion).front().rows.begin, 100U);
+  EXPECT_EQ(fit_windows(in_motion, kWindow_s).front().rows.begin, 100U);
 }
 
 TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/logs/pose_guess.h"
 
 namespace awmr {
 namespace {
@@ -62,19 +63,29 @@ double or_else(double value, double otherwise) {
 ParameterValues<double> guess_from_logs(const std::vector<DrivingLog>& logs,
                                         const Vehicle& vehicle) {
   constexpr double kTimeConstant_s = 0.3;
-  constexpr double kBeta = 0.8;
   const Magnitudes m = mean_magnitudes(logs, vehicle);
-  const double surge = or_else(m.thrust, 1.0) / std::pow(or_else(m.speed, 1.0), kBeta);
-  const double yaw = or_else(m.moment, 0.05) / std::pow(or_else(m.yaw_rate, 0.2), kBeta);
-  const double mass = kTimeConstant_s * surge;
+  const auto of_positions = surge_of_positions(logs, vehicle);
+  const auto of_headings = yaw_of_headings(logs, vehicle);
+  double surge = or_else(m.thrust, 1.0) / std::pow(or_else(m.speed, 1.0), kGuessedBeta);
+  double yaw = or_else(m.moment, 0.05) / std::pow(or_else(m.yaw_rate, 0.2), kGuessedBeta);
+  double mass = kTimeConstant_s * surge;
+  if (of_positions) {
+    surge = of_positions->alpha;
+    mass = of_positions->inertia;
+  }
+  double inertia = mass * vehicle.inertia_kgm2() / vehicle.mass_kg;
+  if (of_headings) {
+    yaw = of_headings->alpha;
+    inertia = of_headings->inertia;
+  }
   ParameterValues<double> guess{};
   guess[at(ParameterId::kSurgeAlpha)] = surge;
-  guess[at(ParameterId::kSurgeBeta)] = kBeta;
+  guess[at(ParameterId::kSurgeBeta)] = kGuessedBeta;
   guess[at(ParameterId::kYawAlpha)] = yaw;
-  guess[at(ParameterId::kYawBeta)] = kBeta;
+  guess[at(ParameterId::kYawBeta)] = kGuessedBeta;
   guess[at(ParameterId::kSwayAlpha)] = mass / 0.1;
   guess[at(ParameterId::kMassNorm)] = mass;
-  guess[at(ParameterId::kInertiaNorm)] = mass * vehicle.inertia_kgm2() / vehicle.mass_kg;
+  guess[at(ParameterId::kInertiaNorm)] = inertia;
   // A vehicle without steering has no servo, so the servo's time constant is arbitrary.
   const double servo_s = vehicle.steering_time_constant_s;
   guess[at(ParameterId::kSteeringTimeConstant)] = servo_s > 0.0 ? servo_s : 0.05;

@@ -233,6 +233,7 @@ std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double
     settled = find_delays_and_errors(std::move(settled), options.loss, tests);
   }
   if (is_between_rows) return stopped_at(settled);
+  settled.problem.ends_at_limit = false;  // Only a fit that has converged gives values.
   const Solved solved = solve(settled.problem, settled.point, kFine);
   const std::vector<WindowSums> sums =
       sums_at(settled.problem, solved.point, block_length_s(settled.problem.model.noise));

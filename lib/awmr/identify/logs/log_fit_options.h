@@ -12,6 +12,7 @@
 
 #include "awmr/identify/logs/channel_noise.h"
 #include "awmr/identify/logs/quantities.h"
+#include "awmr/identify/logs/windows.h"
 #include "awmr/identify/options.h"
 #include "awmr/model/plant_of.h"
 #include "awmr/model/vehicle.h"
@@ -64,6 +65,7 @@ struct LogFitOptions {
   /// True: the fit stops early (LogFit::has_changes_between_rows) if the commands probably change
   /// between the rows of the logs.
   bool tests_changes = false;
+  double window_s = kWindow_s;  ///< longest window, s
   /// Time interval of the rows that are fitted, s. Commands before it still act through delays and
   /// lags. Absent: all rows.
   std::optional<Interval> only_s;

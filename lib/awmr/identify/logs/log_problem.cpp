@@ -47,7 +47,7 @@ double rough_step_s(const LogModel& model) {
 
 LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
   LogProblem problem;
-  problem.windows = fit_windows(logs, options.only_s);
+  problem.windows = fit_windows(logs, options.window_s, options.only_s);
   problem.model = {.vehicle = options.vehicle,
                    .held = options.initial_guess,
                    .quantities = free_quantities(options),

@@ -9,6 +9,7 @@
 #include "awmr/identify/logs/back_emf.h"
 #include "awmr/identify/logs/further_terms.h"
 #include "awmr/identify/logs/initial_guess.h"
+#include "awmr/identify/logs/log_fit.h"
 #include "awmr/trials/calibration_checks.h"
 #include "awmr/trials/log_consistency.h"
 
@@ -172,6 +173,23 @@ bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& l
          why_no_back_emf(logs).empty();
 }
 
+/// Length of the windows of all fits, s: kWindow_s, unless positions are so precise that the errors
+/// of a model grow to many times the noise within a few seconds. The search then has very many wrong
+/// optima, which short windows avoid; and precise positions also determine the initial states of
+/// short windows. Windows are short if the errors of a quick fit are above kFar times the noise
+/// (mean squares), and if short windows reduce them to a tenth.
+double window_length_s(const std::vector<DrivingLog>& logs, LogFitOptions fit) {
+  constexpr double kFar = 1000.0;
+  constexpr double kMuchLess = 0.1;
+  constexpr double kShort_s = 0.6;
+  if (fit.free.empty() || !any_has(logs, {LogChannel::kX, LogChannel::kY})) return kWindow_s;
+  const double error = fit_roughly(logs, fit).relative_error;
+  if (!(error > kFar)) return kWindow_s;
+  fit.window_s = kShort_s;
+  const double less = fit_roughly(logs, fit).relative_error;
+  return less < kMuchLess * error ? kShort_s : kWindow_s;
+}
+
 }  // namespace
 
 LogFitOptions log_setup(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
@@ -183,6 +201,7 @@ LogFitOptions log_setup(const Vehicle& vehicle, const std::vector<DrivingLog>& l
   if (looks_for_back_emf(vehicle, logs, options, model)) {
     fit.candidate_terms.push_back(ParameterId::kBackEmf);
   }
+  fit.window_s = window_length_s(logs, fit);
   return fit;
 }
 

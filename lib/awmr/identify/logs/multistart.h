@@ -34,7 +34,7 @@ struct Multistart {
 ///     of its quick searches is lower by less than 5.
 bool is_far_worse(const Multistart& search, const BestSoFar& best);
 
-/// Returns a smaller problem for quick searches: up to twelve parts of 2.5 s, spread over all logs,
+/// Returns a smaller problem for quick searches: up to twelve parts of at most 2.5 s, spread over all logs,
 /// with longer integration steps.
 LogProblem rough_problem(const LogProblem& problem);
 

@@ -50,14 +50,14 @@ std::size_t first_fitted_row(const DrivingLog& log) {
 
 }  // namespace
 
-std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
+std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs, double longest_s,
                                    const std::optional<Interval>& only_s) {
   std::vector<FitWindow> windows;
   for (const DrivingLog& log : logs) {
     const auto signals = std::make_shared<const LogSignals>(log);
     const double row_spacing_s = log.median_step_s();
     const std::size_t first = first_fitted_row(log);
-    for (const LogWindow& all : windows_of(log, kWindow_s)) {
+    for (const LogWindow& all : windows_of(log, longest_s)) {
       LogWindow rows = only_s ? within(all, *only_s) : all;
       rows.begin = std::clamp(first, rows.begin, rows.end);
       auto samples = std::make_shared<const std::vector<Sample>>(samples_of(rows));

@@ -15,8 +15,9 @@
 
 namespace awmr {
 
-/// Length of a window, s. With shorter windows, the fit has more initial states to estimate; with
-/// longer windows, a disturbance affects more rows.
+/// Length of a window, s, unless the sensors are very precise (LogFitOptions::window_s). With
+/// shorter windows, the fit has more initial states to estimate; with longer windows, a disturbance
+/// affects more rows, and the effect of wrong parameters accumulates.
 inline constexpr double kWindow_s = 10.0;
 
 /// Position of one measured value in a log.
@@ -42,10 +43,10 @@ struct FitWindow {
   double weight(std::size_t sample) const { return weights.empty() ? 1.0 : weights[sample]; }
 };
 
-/// Divides all logs (only the time interval `only_s`, if given) into windows. Omits windows without
-/// samples. If a log of 5 s or more begins in motion, also omits its first second, because motors
+/// Divides all logs (only the time interval `only_s`, if given) into windows of at most about
+/// `longest_s` seconds. Omits windows without samples. If a log of 5 s or more begins in motion, also omits its first second, because motors
 /// and filters then depend on unknown earlier commands. The logs must outlive the windows.
-std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
+std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs, double longest_s,
                                    const std::optional<Interval>& only_s = {});
 
 /// Divides a window into parts with about equal numbers of rows. Each part has its own initial
