@@ -1,13 +1,13 @@
 // Injects failures of the operator's line: generates the characters that arrive at the vehicle, and
-// reads them with the code of the emitted sketches (control/command_line.h).
+// reads them with the code of the emitted sketches (emit/board/command_line.h).
 #pragma once
 
 #include <cstdint>
 #include <string>
 
-#include "awmr/control/arming.h"
-#include "awmr/control/command_line.h"
 #include "awmr/control/safety.h"
+#include "awmr/emit/board/arming.h"
+#include "awmr/emit/board/command_line.h"
 #include "pil_options.h"
 
 namespace awmr::pil {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "awmr/control/faults.h"
+#include "awmr/emit/board/sensor_fault.h"
 #include "pil_options.h"
 
 namespace awmr::pil {

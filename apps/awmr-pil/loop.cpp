@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "awmr/control/arming.h"
+#include "awmr/emit/board/arming.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/scenario_guidance.h"
 #include "awmr/simulate/sensing.h"

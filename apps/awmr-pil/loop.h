@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "awmr/control/gps_check.h"
 #include "awmr/core/progress.h"
+#include "awmr/emit/board/gps_check.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/scenario.h"
 #include "executor.h"

@@ -1,6 +1,6 @@
 // Injects sensor failures. Derives raw readings from the simulated motion, and applies the checks
-// of the sketches to them (control/heading_check.h, gps_check.h). As on the board, a sensor that a
-// check rejects keeps its old time stamp, so the autopilot soon finds its reading too old.
+// of the sketches to them (emit/board/heading_check.h, gps_check.h). As on the board, a sensor that
+// a check rejects keeps its old time stamp, so the autopilot soon finds its reading too old.
 #pragma once
 
 #include <deque>
@@ -8,8 +8,8 @@
 #include <random>
 
 #include "awmr/control/autopilot.h"
-#include "awmr/control/gps_check.h"
-#include "awmr/control/heading_check.h"
+#include "awmr/emit/board/gps_check.h"
+#include "awmr/emit/board/heading_check.h"
 #include "pil_options.h"
 
 namespace awmr::pil {

@@ -40,7 +40,7 @@ enum class Injection {
   kStepLate,        ///< a pause of 10 s before a step
   kParameters,      ///< a bit of the parameters in flash is flipped before the start
   kReset,           ///< the chip is reset, as after a drop of its supply, and starts again
-  // Sensor failures. The checks of the emitted sketches detect them (control/heading_check.h,
+  // Sensor failures. The checks of the emitted sketches detect them (emit/board/heading_check.h,
   // gps_check.h).
   kCompassSilent,      ///< no new field measurement
   kCompassFrozen,      ///< raw values repeat
@@ -66,7 +66,7 @@ enum class Injection {
   kServoReversed,      ///< the servo turns the wrong way
   kCompassTurning,     ///< the measured heading drifts by 2.5 deg/s
   // Failures of the operator's line, whose characters are read as the sketches do
-  // (control/command_line.h).
+  // (emit/board/command_line.h).
   kCommandSilence,        ///< no command arrives
   kCommandNoise,          ///< characters without a line end
   kCommandUnknown,        ///< unknown commands

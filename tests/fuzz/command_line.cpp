@@ -1,6 +1,6 @@
 /// Fuzz target: sends the bytes to the reader of serial commands. Only a complete line or frame
 /// gives a command, its value is finite, and the letters STOP always give the command to stop.
-#include "awmr/control/command_line.h"
+#include "awmr/emit/board/command_line.h"
 
 #include <cmath>
 #include <string>

@@ -1,6 +1,6 @@
 /// Fuzz target: reads the bytes as GPS sentences. Every fix has a valid position, speed and time of
 /// day.
-#include "awmr/control/gps_sentence.h"
+#include "awmr/emit/board/gps_sentence.h"
 
 #include <cmath>
 #include <string>

@@ -1,13 +1,13 @@
 /// Fuzz target: gives the sensor checks of the sketch arbitrary readings at arbitrary times. A
 /// repeated fix is rejected, each check reports only its own faults, and the vehicle is never armed
 /// while a fault lasts.
-#include "awmr/control/gps_check.h"
-#include "awmr/control/heading_check.h"
+#include "awmr/emit/board/gps_check.h"
+#include "awmr/emit/board/heading_check.h"
 
 #include <cmath>
 #include <cstring>
 
-#include "awmr/control/arming.h"
+#include "awmr/emit/board/arming.h"
 #include "fuzz/target.h"
 
 using awmr::fuzz::require;

@@ -4,7 +4,7 @@
 #include <avr/io.h>
 #include <avr/sleep.h>
 
-#include "awmr/control/faults.h"
+#include "awmr/emit/board/sensor_fault.h"
 #include "awmr_log.h"
 #include "chip_uart.h"
 

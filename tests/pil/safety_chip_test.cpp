@@ -5,7 +5,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "awmr/control/faults.h"
+#include "awmr/emit/board/sensor_fault.h"
 #include "pil/chip.h"
 
 namespace awmr::testing {

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "awmr.h"
-#include "awmr/control/arming.h"
-#include "awmr/control/command_line.h"
 #include "awmr/control/flash.h"
-#include "awmr/control/gps_receiver.h"
-#include "awmr/control/heading_check.h"
+#include "awmr/emit/board/arming.h"
+#include "awmr/emit/board/command_line.h"
+#include "awmr/emit/board/gps_receiver.h"
+#include "awmr/emit/board/heading_check.h"
 
 namespace safety_sequence {
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "awl_text.h"
-#include "awmr/control/log_ring.h"
+#include "awmr/emit/board/log_ring.h"
 #include "awmr/trials/read_trials.h"
 #include "trial_text.h"
 

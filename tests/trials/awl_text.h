@@ -4,7 +4,7 @@
 #include <cstring>
 #include <string>
 
-#include "awmr/control/log_row.h"
+#include "awmr/trials/awl_row.h"
 #include "binary_text.h"
 
 namespace awmr::testing {

@@ -20,7 +20,6 @@
 
 #include "awmr/control/displacement.h"
 #include "awmr/control/feed_forward.h"
-#include "awmr/control/gps_sentence.h"
 #include "awmr/control/guidance/position.h"
 #include "awmr/control/measurement.h"
 #include "awmr/model/gains.h"

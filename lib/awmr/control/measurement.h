@@ -1,7 +1,11 @@
-/// Inputs of the controller: measurements and references.
+/// Inputs of the controller: measurements and references. Avoids names that Arduino defines as
+/// macros.
 #pragma once
 
 namespace awmr {
+
+/// A GPS speed below this, m/s, can be the noise of a receiver at rest.
+constexpr float kStandstill_mps = 0.3F;
 
 /// Measured motion of the vehicle at one sample.
 template <class T>

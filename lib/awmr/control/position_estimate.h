@@ -16,7 +16,8 @@
 ///
 /// A fix is rejected if |nu| > kInnovationMax sqrt(P + R). After kRejections rejected fixes in a
 /// row, the estimate itself must be wrong: it is reset to the last fix, and `resets` counts this.
-/// In the firmware, gps_check.h has already refused each fix that the vehicle cannot have reached.
+/// In the firmware, emit/board/gps_check.h has already refused each fix that the vehicle cannot
+/// have reached.
 #pragma once
 
 #include <stdint.h>

@@ -8,8 +8,8 @@
 
 namespace awmr {
 
-/// Returns the control sources (src/awmr/), sorted by path; then the files of assets/, sorted by
-/// path; then LICENSE.
+/// Returns the headers of lib/awmr (src/awmr/), sorted by path; then the files of assets/, sorted
+/// by path; then LICENSE.
 const std::vector<EmbeddedFile>& embedded_files();
 
 }  // namespace awmr

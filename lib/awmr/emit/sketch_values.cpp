@@ -72,7 +72,7 @@ double on_course_rad(double error_rad) {
 }
 
 /// Returns AWMR_OFF_COURSE_MRAD, m rad, the limit of fault 17. The detector
-/// (control/motion_check.h) integrates (heading error - e0) over the distance, with e0 =
+/// (emit/board/motion_check.h) integrates (heading error - e0) over the distance, with e0 =
 /// `on_course_rad`. Even without a failure, a turn by 180 deg with the radius R adds R (pi -
 /// e0)^2/2. The limit is this amount plus 10 m rad for the distance until the turn begins, but at
 /// most 90 m rad. R is the largest turning radius at 1/4, 1/2, 3/4 and all of the route's speed,

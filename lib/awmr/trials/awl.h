@@ -1,4 +1,4 @@
-/// Reads the log that the emitted firmware writes on its board (`.awl`). control/log_row.h defines
+/// Reads the log that the emitted firmware writes on its board (`.awl`). trials/awl_row.h defines
 /// the file format. The header of each file defines the columns of its rows.
 #pragma once
 

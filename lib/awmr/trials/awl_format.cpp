@@ -8,10 +8,10 @@
 #include <set>
 #include <utility>
 
-#include "awmr/control/log_row.h"
 #include "awmr/core/json_document.h"
 #include "awmr/core/name_table.h"
 #include "awmr/core/time_column.h"
+#include "awmr/trials/awl_row.h"
 #include "byte_reader.h"
 
 namespace awmr::awl {

@@ -12,7 +12,7 @@
 
 #include "awmr.h"
 #include "awmr/control/flash.h"
-#include "awmr/control/log_ring.h"
+#include "awmr/emit/board/log_ring.h"
 
 namespace awmr_log {
 

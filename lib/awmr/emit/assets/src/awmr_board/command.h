@@ -1,10 +1,10 @@
-/* Commands over Serial, 115200 baud: the lines of awmr/control/command_line.h. The sketch's
+/* Commands over Serial, 115200 baud: the lines of awmr/emit/board/command_line.h. The sketch's
    receive() reads them in the timer interrupt. loop() prints the answers: printing waits when the
    port is full, which would delay the control step. */
 #ifndef AWMR_BOARD_COMMAND_H
 #define AWMR_BOARD_COMMAND_H
 
-#include "../awmr/control/command_line.h"
+#include "../awmr/emit/board/command_line.h"
 
 namespace awmr_board {
 

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #include "../awmr/control/crc.h"
-#include "../awmr/control/gps_receiver.h"
+#include "../awmr/emit/board/gps_receiver.h"
 #include "../awmr/model/quick_sin.h"
 #include "steps.h"
 

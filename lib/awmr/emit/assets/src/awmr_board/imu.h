@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "../awmr/control/heading_check.h"
+#include "../awmr/emit/board/heading_check.h"
 #include "../awmr/model/float_bearing.h"
 #include "../awmr_params.h"
 

@@ -3,7 +3,7 @@
 #ifndef AWMR_BOARD_SAFETY_H
 #define AWMR_BOARD_SAFETY_H
 
-#include "../awmr/control/arming.h"
+#include "../awmr/emit/board/arming.h"
 #include "command.h"
 
 namespace awmr_board {

@@ -1,7 +1,7 @@
 /// Measures the zero-rate offset of a gyroscope before the vehicle moves.
 #pragma once
 
-#include "awmr/control/faults.h"
+#include "awmr/emit/board/sensor_fault.h"
 
 namespace awmr {
 

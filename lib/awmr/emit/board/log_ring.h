@@ -9,7 +9,7 @@
 
 #include <stdint.h>
 
-#include "awmr/control/log_row.h"
+#include "awmr/trials/awl_row.h"
 
 namespace awmr {
 

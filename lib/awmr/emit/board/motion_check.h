@@ -4,8 +4,9 @@
 #pragma once
 
 #include "awmr/control/displacement.h"
-#include "awmr/control/faults.h"
-#include "awmr/control/gps_sentence.h"
+#include "awmr/control/measurement.h"
+#include "awmr/emit/board/gps_sentence.h"
+#include "awmr/emit/board/sensor_fault.h"
 
 namespace awmr {
 

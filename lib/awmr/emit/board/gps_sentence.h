@@ -24,8 +24,6 @@ enum class GpsSentence : uint8_t {
   kFix  ///< complete, with a usable fix
 };
 
-/// A GPS speed below this, m/s, can be the noise of a receiver at rest.
-constexpr float kStandstill_mps = 0.3F;
 /// Seconds and milliseconds of a day.
 constexpr uint32_t kDay_s = 86400;
 constexpr uint32_t kDay_ms = 1000 * kDay_s;

@@ -2,7 +2,7 @@
 /// wrap to 0.
 #pragma once
 
-#include "awmr/control/motion_check.h"
+#include "awmr/emit/board/motion_check.h"
 
 namespace awmr {
 

@@ -1,5 +1,5 @@
 /// Commands as lines and frames: accepted, rejected, and STOP always acts.
-#include "awmr/control/command_line.h"
+#include "awmr/emit/board/command_line.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

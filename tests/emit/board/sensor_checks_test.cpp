@@ -1,6 +1,6 @@
 /// Plausibility checks of compass, gyroscope and GPS, arming, and the RMC parser.
-#include "awmr/control/gps_receiver.h"
-#include "awmr/control/heading_check.h"
+#include "awmr/emit/board/gps_receiver.h"
+#include "awmr/emit/board/heading_check.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "awmr/control/arming.h"
+#include "awmr/emit/board/arming.h"
 
 namespace awmr::testing {
 namespace {

@@ -14,7 +14,7 @@
 /// sample time (spreads_work false), one step of the control loop does all of this work.
 #pragma once
 
-#include "awmr/control/gps_check.h"
+#include "awmr/emit/board/gps_check.h"
 
 namespace awmr {
 

@@ -2,8 +2,8 @@
 /// of one clock, in ms, that can wrap to 0.
 #pragma once
 
-#include "awmr/control/faults.h"
-#include "awmr/control/gyro_calibration.h"
+#include "awmr/emit/board/gyro_calibration.h"
+#include "awmr/emit/board/sensor_fault.h"
 
 namespace awmr {
 
