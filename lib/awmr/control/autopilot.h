@@ -35,9 +35,7 @@ AWMR_INLINE uint8_t check_input(Autopilot<G, P>& a, const AutopilotInput& in) {
   unsigned fault = a.are_parameters_good ? kFaultNone : kFaultParameters;
   if (in.mode > static_cast<uint8_t>(YawMode::kCombined)) fault |= kFaultRange;
   if (!P::kIsDirected && in.speed_unsigned != 0) fault |= kFaultRange;
-  if (in.position_is_fix != 0 && !estimates_position(part_of<typename P::Positioning>(a))) {
-    fault |= kFaultRange;
-  }
+  if (!P::Positioning::kIsIn && in.position_is_fix != 0) fault |= kFaultRange;
   fault |= check_measurement(a.limits, in.measured);
   fault |= check_reference(a.limits, in.reference);
   fault |= check_times(a.limits, in.times);
@@ -114,9 +112,9 @@ AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in,
 /// and disturbance observers, because their state no longer matches the motion of the vehicle.
 template <class G, class P>
 AWMR_INLINE void stop(Autopilot<G, P>& a, AutopilotOutput& out) {
-  reset(part_of<typename P::Avoidance>(a));
-  reset(part_of<typename P::Shaping>(a));
-  reset(part_of<typename P::Observation>(a));
+  part_of<typename P::Avoidance>(a).reset();
+  part_of<typename P::Shaping>(a).reset();
+  part_of<typename P::Observation>(a).reset();
   out.command = safe_command<float>();
   out.tau_speed = 0.0F;
   out.tau_turn_m = 0.0F;
@@ -139,7 +137,7 @@ void autopilot_step(Autopilot<G, P>& a, const AutopilotInput& in, AutopilotOutpu
   const bool is_sensed = (out.fault & static_cast<uint8_t>(~kFaultCommandTimeout)) == 0;
   if (is_directed && is_sensed) detail::read_speed(a, in);
   typename P::Positioning& positioning = part_of<typename P::Positioning>(a);
-  if (!is_sensed) reset(positioning);
+  if (!is_sensed) positioning.reset();
   const Position<float>& position_m =
       is_sensed ? position_now(positioning, in, a.direction.predicted_mps) : in.position_m;
   if (out.fault == kFaultNone) {

@@ -24,6 +24,25 @@ struct Observer {
   ObserversState<float> state;  ///< valid once is_started
   bool is_on;
   bool is_started;
+
+  /// Estimates the disturbance from the next step on. The first estimate is 0.
+  void enable(const Observers<float>& tuned, float time_s) {
+    observers = tuned;
+    sample_time_s = time_s;
+    is_on = true;
+    is_started = false;
+  }
+  void disable() { is_on = false; }
+  void reset() { is_started = false; }
+  /// Enables the observer with these parameters. Null: disables it.
+  void start(const ObserverBlock* tuned) {
+    disable();
+    if (tuned == 0) return;
+    ObserverBlock read;
+    read_flash(tuned, read);
+    enable({{read.bandwidth_radps, read.yaw_max_m}, {read.bandwidth_radps, read.surge_max}, true},
+           read.sample_time_s);
+  }
 };
 
 /// Increases the motor commands to compensate the dead zone and the back-EMF of the motors.
@@ -34,20 +53,35 @@ struct MotorCurve {
   /// that jumps at rest.
   const RestBlock* rest;
   uint8_t mode;  ///< YawMode to which the friction width of the yaw resistance g3 is set
+
+  void start(const RestBlock* block) {
+    rest = block;
+    mode = 0;  // start_autopilot() sets the yaw resistance g3 for this mode
+    dead_zone = rest != 0 ? flash_float(&rest->dead_zone) : 0.0F;
+    back_emf_s_per_m = rest != 0 ? flash_float(&rest->back_emf_s_per_m) : 0.0F;
+  }
 };
 
 /// Uses other gains in each mode.
 struct GainsByMode {
   const ModeGainsBlock* gains;  ///< in flash on an AVR. Null: the same gains in every mode
   uint8_t mode;                 ///< YawMode whose gains are in use; kYawModeCount: none yet
+
+  void start(const ModeGainsBlock* block) {
+    gains = block;
+    mode = kYawModeCount;
+  }
 };
 
 /// Estimates the position from the fixes of a GPS receiver. `Filter` is the type of the constants,
 /// see PositionEstimate.
 template <class Filter = PositionFilter<float>>
 struct Positioner {
+  static constexpr bool kIsIn = true;
   PositionEstimate<float, Filter> estimate{};
   uint32_t fix_ms = 0;  ///< time of the last fix (AutopilotInput::fix_ms)
+
+  AWMR_INLINE void reset() { estimate.restart(); }
 };
 
 /// List of all parts. `split` determines how combined mode distributes the yaw moment when an
@@ -68,31 +102,6 @@ struct AllParts {
   /// True: speed sensors without a sign are supported (AutopilotInput::speed_unsigned).
   static constexpr bool kIsDirected = true;
 };
-
-/// Makes the observer estimate the disturbance from the next step on. The first estimate is 0.
-inline void enable(Observer& part, const Observers<float>& observers, float sample_time_s) {
-  part.observers = observers;
-  part.sample_time_s = sample_time_s;
-  part.is_on = true;
-  part.is_started = false;
-}
-inline void disable(Observer& part) { part.is_on = false; }
-inline void reset(Observer& part) { part.is_started = false; }
-
-/// True if the position estimate is compiled in.
-template <class Filter>
-AWMR_INLINE bool estimates_position(const Disabled<Positioner<Filter>>&) {
-  return false;
-}
-template <class Filter>
-AWMR_INLINE bool estimates_position(const Positioner<Filter>&) {
-  return true;
-}
-
-template <class Filter>
-AWMR_INLINE void reset(Positioner<Filter>& part) {
-  part.estimate.restart();
-}
 
 /// Returns the present position: the estimate, or in.position_m if this is not a GPS fix or if the
 /// estimate is not compiled in. If the speed sensor measures no sign, the estimate uses the sign of
@@ -141,13 +150,12 @@ void use_friction_width(MotorCurve& part, uint8_t mode, G& yaw) {
 /// compiled in.
 inline void use_observer(const GainsBlock&, float, Disabled<Observer>&) {}
 inline void use_observer(const GainsBlock& own, float sample_time_s, Observer& part) {
-  disable(part);
+  part.disable();
   if (!(own.observer_radps > 0.0F)) return;
-  enable(part,
-         {{own.observer_radps, own.observer_yaw_max_m},
-          {own.observer_radps, own.observer_surge_max},
-          true},
-         sample_time_s);
+  part.enable({{own.observer_radps, own.observer_yaw_max_m},
+               {own.observer_radps, own.observer_surge_max},
+               true},
+              sample_time_s);
 }
 
 /// If the mode has changed, replaces the gains in `constants` and the observer by the gains and

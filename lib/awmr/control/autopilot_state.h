@@ -29,34 +29,6 @@ struct Autopilot : GuidanceLaws<float, P>, P::Observation, P::Motors, P::Gains, 
   bool are_parameters_good;        ///< the check sum of the parameters was correct at the start
 };
 
-/// Sets dead zone and back-EMF of the motors. No-op if MotorCurve is not compiled in.
-inline void set_motors(const RestBlock*, Disabled<MotorCurve>&) {}
-inline void set_motors(const RestBlock* rest, MotorCurve& part) {
-  part.rest = rest;
-  part.mode = 0;  // start_autopilot() sets the yaw resistance g3 for this mode
-  part.dead_zone = rest != 0 ? flash_float(&rest->dead_zone) : 0.0F;
-  part.back_emf_s_per_m = rest != 0 ? flash_float(&rest->back_emf_s_per_m) : 0.0F;
-}
-
-/// Sets the gains of the modes. No-op if GainsByMode is not compiled in.
-inline void set_gains(const ModeGainsBlock*, Disabled<GainsByMode>&) {}
-inline void set_gains(const ModeGainsBlock* gains, GainsByMode& part) {
-  part.gains = gains;
-  part.mode = kYawModeCount;
-}
-
-/// Enables the disturbance observer with the parameters `tuned`. No-op if the observer is not
-/// compiled in or `tuned` is null.
-inline void set_observer(const ObserverBlock*, Disabled<Observer>&) {}
-inline void set_observer(const ObserverBlock* tuned, Observer& part) {
-  if (tuned == 0) return;
-  ObserverBlock read;
-  read_flash(tuned, read);
-  enable(part,
-         {{read.bandwidth_radps, read.yaw_max_m}, {read.bandwidth_radps, read.surge_max}, true},
-         read.sample_time_s);
-}
-
 /// Reads the parameters. Returns true if their check sum equals `crc`, which the header of the
 /// emitted library defines. Otherwise, every step outputs the safe command. Parameters of optional
 /// parts: `rest` for RestingTable and MotorCurve, `observer` for Observer, `gains` for GainsByMode;
@@ -75,13 +47,12 @@ bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
     set_rest(&rest->surge_rest_speed, &rest->surge_at_rest, c.surge);
     set_friction_width(rest, 0, c.yaw);
   }
-  set_motors(rest, part_of<typename P::Motors>(a));
-  set_gains(gains, part_of<typename P::Gains>(a));
+  part_of<typename P::Motors>(a).start(rest);
+  part_of<typename P::Gains>(a).start(gains);
   read_flash(&block->safety, a.limits);
   disable_guidance(a);
-  disable(part_of<typename P::Observation>(a));
-  reset(part_of<typename P::Positioning>(a));
-  set_observer(observer, part_of<typename P::Observation>(a));
+  part_of<typename P::Observation>(a).start(observer);
+  part_of<typename P::Positioning>(a).reset();
   a.has_stepped = false;
   a.direction = DirectedSpeed<float>();
   a.direction_ms = 0;
@@ -98,8 +69,8 @@ void follow_waypoints(Autopilot<G, P>& a, const Waypoints<float>& waypoints) {
   a.waypoints = waypoints;
   a.acceptance_m2 = waypoints.acceptance_m * waypoints.acceptance_m;
   a.is_leg_started = false;
-  disable(part_of<typename P::Line>(a));
-  disable(part_of<typename P::Path>(a));
+  part_of<typename P::Line>(a).disable();
+  part_of<typename P::Path>(a).disable();
 }
 
 /// Makes the autopilot follow this line from the next step on, instead of any waypoints or path.
@@ -162,7 +133,7 @@ void filter_position(Autopilot<G, P>& a, const PositionFilter<float>& filter) {
 template <class G, class P>
 void observe_disturbance(Autopilot<G, P>& a, const Observers<float>& observers,
                          float sample_time_s) {
-  enable(part_of<Observer>(a), observers, sample_time_s);
+  part_of<Observer>(a).enable(observers, sample_time_s);
 }
 
 }  // namespace awmr

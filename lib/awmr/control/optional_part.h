@@ -3,10 +3,23 @@
 
 namespace awmr {
 
-/// Empty struct that replaces a part that is not compiled in. Every function on a part has an
-/// overload for this struct that does nothing. So a missing part needs no flash, RAM or time.
+/// Empty struct that replaces a part that is not compiled in. Its members do nothing, and every
+/// function on a part has an overload for this struct that does nothing. So a missing part needs no
+/// flash, RAM or time. A part has those of these members that its callers use.
 template <class Part>
-struct Disabled {};
+struct Disabled {
+  static constexpr bool kIsIn = false;  ///< the part is compiled in
+  /// Sets the parameters of the part, which are in flash on an AVR.
+  template <class Parameters>
+  void start(const Parameters*) {}
+  /// Switches the part off.
+  void disable() {}
+  /// Resets the state of the part after a step with the safe command, because the state no longer
+  /// matches the motion of the vehicle.
+  void reset() {}
+  /// True if this part of the guidance will use the position in the next step.
+  static constexpr bool needs_position() { return false; }
+};
 
 /// `Part` if kIsIn is true, else Disabled<Part>.
 template <bool kIsIn, class Part>
@@ -24,14 +37,5 @@ template <class Part, class Whole>
 Part& part_of(Whole& whole) {
   return static_cast<Part&>(whole);
 }
-
-/// Switches a part off. No-op for a part that is not compiled in.
-template <class Part>
-void disable(Disabled<Part>&) {}
-
-/// Resets the state of a part after a step with the safe command, because the state no longer
-/// matches the motion of the vehicle.
-template <class Part>
-void reset(Disabled<Part>&) {}
 
 }  // namespace awmr

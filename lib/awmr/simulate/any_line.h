@@ -21,16 +21,11 @@ struct AnyLineFollower {
   PolylineProgress<T> progress;
   bool is_started;
   PolylineGuidance<T> guided;  ///< output of the last step
+
+  void disable() { line.count = 0; }
+  bool needs_position() const { return line.count > 0; }
 };
 
-template <class T>
-void disable(AnyLineFollower<T>& part) {
-  part.line.count = 0;
-}
-template <class T>
-bool needs_position(const AnyLineFollower<T>& part) {
-  return part.line.count > 0;
-}
 template <class T>
 PolylineGuidance<T> guide_line(AnyLineFollower<T>& part, const Position<T>& position_m,
                                const LineMotion<T>& motion) {

@@ -1,6 +1,6 @@
 /// Guidance of one step: computes the reference heading and speed from waypoints, a line or a timed
 /// path, turns the heading away from obstacles, and smooths it. Optional parts that a firmware
-/// leaves out have the type Disabled<Part>; the overloads for this type do nothing.
+/// leaves out have the type Disabled<Part>, whose members and overloads do nothing.
 #pragma once
 
 #include "awmr/control/flash.h"
@@ -38,19 +38,19 @@ struct GuidanceLaws : P::Line, P::Path, P::Arrival, P::Avoidance, P::Shaping {
 template <class T, class P>
 void disable_guidance(GuidanceLaws<T, P>& g) {
   g.waypoints.count = 0;
-  disable(part_of<typename P::Line>(g));
-  disable(part_of<typename P::Path>(g));
-  disable(part_of<typename P::Arrival>(g));
-  disable(part_of<typename P::Avoidance>(g));
-  disable(part_of<typename P::Shaping>(g));
+  part_of<typename P::Line>(g).disable();
+  part_of<typename P::Path>(g).disable();
+  part_of<typename P::Arrival>(g).disable();
+  part_of<typename P::Avoidance>(g).disable();
+  part_of<typename P::Shaping>(g).disable();
 }
 
 /// True if the guidance will use the position in the next step.
 template <class T, class P>
 AWMR_INLINE bool guidance_needs_position(GuidanceLaws<T, P>& g) {
-  return g.waypoints.count > 0 || needs_position(part_of<typename P::Line>(g)) ||
-         needs_position(part_of<typename P::Path>(g)) ||
-         needs_position(part_of<typename P::Avoidance>(g));
+  return g.waypoints.count > 0 || part_of<typename P::Line>(g).needs_position() ||
+         part_of<typename P::Path>(g).needs_position() ||
+         part_of<typename P::Avoidance>(g).needs_position();
 }
 
 /// Sets the reference to a constant heading: its rate and acceleration are 0.

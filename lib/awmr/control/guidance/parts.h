@@ -1,5 +1,5 @@
-/// Optional parts of the guidance, which a firmware can leave out (optional_part.h): parameters and
-/// state of each.
+/// Optional parts of the guidance, which a firmware can leave out (optional_part.h): parameters,
+/// state and members of each.
 #pragma once
 
 #include <stdint.h>
@@ -36,6 +36,9 @@ struct LineFollower {
   T sample_time_s;               ///< time between two guidance steps, > 0
   PolylineProgress<T> progress;  ///< valid once is_started
   bool is_started;               ///< at least one step along the line was made
+
+  void disable() { line.count = 0; }
+  bool needs_position() const { return line.count > 0; }
 };
 
 /// Follows a Lissajous figure as a function of time.
@@ -48,6 +51,9 @@ struct PathFollower {
   Time start;  ///< time at which the path began (its t = 0), valid once is_started
   bool is_on;
   bool is_started;  ///< at least one step along the path was made
+
+  void disable() { is_on = false; }
+  bool needs_position() const { return is_on && gain_per_s > T(0.0); }
 };
 
 /// Reduces the reference speed before the last waypoint, or before the end of the line.
@@ -55,6 +61,8 @@ template <class T>
 struct SlowDown {
   /// Distance from the end of the route at which the speed begins to fall, m. 0: disabled.
   T distance_m;
+
+  void disable() { distance_m = T(0.0); }
 };
 
 /// Avoids obstacles.
@@ -65,6 +73,10 @@ struct Avoider {
   Sector<T>* sectors;            ///< room for `count`; not owned
   int count;                     ///< 0: none
   AvoidanceState state;
+
+  void disable() { count = 0; }
+  void reset() { state = AvoidanceState(); }
+  bool needs_position() const { return count > 0; }
 };
 
 /// Smooths the heading reference.
@@ -75,54 +87,9 @@ struct Shaper {
   ShapedHeading<T> state;  ///< valid once is_started
   bool is_on;
   bool is_started;
+
+  void disable() { is_on = false; }
+  void reset() { is_started = false; }
 };
-
-template <class T, class Law>
-void disable(LineFollower<T, Law>& part) {
-  part.line.count = 0;
-}
-template <class T, class Time>
-void disable(PathFollower<T, Time>& part) {
-  part.is_on = false;
-}
-template <class T>
-void disable(SlowDown<T>& part) {
-  part.distance_m = T(0.0);
-}
-template <class T>
-void disable(Avoider<T>& part) {
-  part.count = 0;
-}
-template <class T>
-void disable(Shaper<T>& part) {
-  part.is_on = false;
-}
-
-template <class T>
-void reset(Avoider<T>& part) {
-  part.state = AvoidanceState();
-}
-template <class T>
-void reset(Shaper<T>& part) {
-  part.is_started = false;
-}
-
-/// True if this part of the guidance will use the position in the next step.
-template <class Part>
-AWMR_INLINE bool needs_position(const Disabled<Part>&) {
-  return false;
-}
-template <class T, class Law>
-bool needs_position(const LineFollower<T, Law>& part) {
-  return part.line.count > 0;
-}
-template <class T, class Time>
-bool needs_position(const PathFollower<T, Time>& part) {
-  return part.is_on && part.gain_per_s > T(0.0);
-}
-template <class T>
-bool needs_position(const Avoider<T>& part) {
-  return part.count > 0;
-}
 
 }  // namespace awmr

@@ -277,7 +277,7 @@ __attribute__((noinline)) void awmr_avoid(const awmr_avoidance* avoidance,
 
 #if AWMR_WITH_SHAPING
 void awmr_shape(const awmr_shaping* shaping) {
-  if (shaping == 0) return awmr::disable(awmr::part_of<awmr::Shaper<float>>(autopilot));
+  if (shaping == 0) return awmr::part_of<awmr::Shaper<float>>(autopilot).disable();
   const awmr::HeadingShaping<float> filter = {shaping->omega_radps, shaping->rate_max_radps,
                                               shaping->accel_max_radps2};
   awmr::shape_headings(autopilot, filter, AWMR_SAMPLE_TIME_S);
@@ -286,7 +286,7 @@ void awmr_shape(const awmr_shaping* shaping) {
 
 #if AWMR_WITH_OBSERVER
 void awmr_observe(const awmr_observer* observer) {
-  if (observer == 0) return awmr::disable(awmr::part_of<awmr::Observer>(autopilot));
+  if (observer == 0) return awmr::part_of<awmr::Observer>(autopilot).disable();
   const awmr::Observers<float> observers = {{observer->bandwidth_radps, observer->yaw_max_m},
                                             {observer->bandwidth_radps, observer->surge_max},
                                             observer->anti_windup != 0};
