@@ -281,14 +281,10 @@ TEST_F(AutopilotLeads, WithTheGainsOfTheMode) {
   ModeGainsBlock by_mode{};
   for (int mode = 0; mode < kYawModeCount; ++mode) {
     const float f = 0.5F + 0.25F * static_cast<float>(mode);
-    const ControlConstants<float>& c = block_.constants;
+    const LawConstants<float>& c = block_.constants.laws;
     const bool is_observed = mode == 1;
-    by_mode.in[mode] = {f * c.lambda,
-                        f * c.heading_rate,
-                        f * c.heading_slope,
-                        f * c.heading_limit,
-                        f * c.speed_slope,
-                        f * c.speed_limit,
+    by_mode.in[mode] = {{f * c.lambda, f * c.heading_rate, f * c.heading_slope, f * c.heading_limit,
+                         f * c.speed_slope, f * c.speed_limit},
                         is_observed ? 3.0F : 0.0F,
                         is_observed ? 0.2F : 0.0F,
                         is_observed ? 0.3F : 0.0F};
@@ -300,14 +296,7 @@ TEST_F(AutopilotLeads, WithTheGainsOfTheMode) {
                               &by_mode));
   for (const int mode : {2, 0, 1, 1, 0, 2}) {
     ParameterBlock own = block_;
-    const GainsBlock& gains = by_mode.in[mode];
-    ControlConstants<float>& c = own.constants;
-    c.lambda = gains.lambda;
-    c.heading_rate = gains.heading_rate;
-    c.heading_slope = gains.heading_slope;
-    c.heading_limit = gains.heading_limit;
-    c.speed_slope = gains.speed_slope;
-    c.speed_limit = gains.speed_limit;
+    own.constants.laws = by_mode.in[mode].laws;
     const ObserverBlock observer{3.0F, 0.2F, 0.3F, kSampleTime_s};
     const ObserverBlock* const tuned = mode == 1 ? &observer : nullptr;
     decltype(autopilot_) other{};

@@ -171,12 +171,7 @@ void use_gains(GainsByMode& part, uint8_t mode, ControlConstants<float>& constan
   if (part.gains == 0) return;
   GainsBlock own;
   read_flash(&part.gains->in[mode], own);
-  constants.lambda = own.lambda;
-  constants.heading_rate = own.heading_rate;
-  constants.heading_slope = own.heading_slope;
-  constants.heading_limit = own.heading_limit;
-  constants.speed_slope = own.speed_slope;
-  constants.speed_limit = own.speed_limit;
+  constants.laws = own.laws;
   const float sample_time_s = flash_float(&part.gains->observer_sample_time_s);
   if (sample_time_s > 0.0F) use_observer(own, sample_time_s, observation);
 }

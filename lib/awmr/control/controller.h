@@ -20,18 +20,24 @@ struct Controller {
   AllocationLimits<T> limits;  ///< limits of the vehicle
 };
 
-/// Products of model parameters, gains and limits that the laws and the allocation use, computed
-/// once. All members are of type T, so there is no padding and a check sum can cover the struct.
+/// Gains of the heading law and the speed law, multiplied by model parameters.
 template <class T>
-struct ControlConstants {
-  T mass_norm;      ///< m', s^2/m
-  T inertia_norm;   ///< I'z, s^2 m
+struct LawConstants {
   T lambda;         ///< lambda, 1/s
   T heading_rate;   ///< I'z lambda, s m
   T heading_slope;  ///< I'z mu/epsilon, s m
   T heading_limit;  ///< I'z mu, m
   T speed_slope;    ///< m' mu_s/eps_s, s/m
   T speed_limit;    ///< m' mu_s, dimensionless
+};
+
+/// Products of model parameters, gains and limits that the laws and the allocation use, computed
+/// once. All numbers are of type T, so there is no padding and a check sum can cover the struct.
+template <class T>
+struct ControlConstants {
+  T mass_norm;     ///< m', s^2/m
+  T inertia_norm;  ///< I'z, s^2 m
+  LawConstants<T> laws;
   AllocationConstants<T> allocation;
 };
 
@@ -45,14 +51,16 @@ struct PreparedController {
 
 template <class T, class G>
 PreparedController<T, G> prepared(const Controller<T, G>& c) {
-  return {
-      c.surge,
-      c.yaw,
-      {c.mass_norm, c.inertia_norm, c.gains.heading.lambda, c.inertia_norm * c.gains.heading.lambda,
-       c.inertia_norm * (c.gains.heading.mu / c.gains.heading.epsilon),
-       c.inertia_norm * c.gains.heading.mu,
-       c.mass_norm * (c.gains.speed.mu / c.gains.speed.epsilon), c.mass_norm * c.gains.speed.mu,
-       prepared(c.limits)}};
+  const HeadingGains<T>& heading = c.gains.heading;
+  const SpeedGains<T>& speed = c.gains.speed;
+  return {c.surge,
+          c.yaw,
+          {c.mass_norm,
+           c.inertia_norm,
+           {heading.lambda, c.inertia_norm * heading.lambda,
+            c.inertia_norm * (heading.mu / heading.epsilon), c.inertia_norm * heading.mu,
+            c.mass_norm * (speed.mu / speed.epsilon), c.mass_norm * speed.mu},
+           prepared(c.limits)}};
 }
 
 }  // namespace awmr

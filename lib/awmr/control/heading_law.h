@@ -32,12 +32,12 @@ AWMR_INLINE T sliding_surface(const T& lambda, const T& error_rate_radps, const 
 template <class T, class G>
 AWMR_INLINE T heading_law(const PreparedController<T, G>& c, const Measurement<T>& m,
                           const Reference<T>& ref) {
-  const ControlConstants<T>& k = c.constants;
+  const LawConstants<T>& k = c.constants.laws;
   const T error_rate = math::difference(ref.psi_rate_radps, m.r_radps);
   const T s = sliding_surface(k.lambda, error_rate, T(ref.psi_rad - m.psi_rad));
   const T correction = math::saturate(T(k.heading_slope * s), k.heading_limit);
   const T held = fed_forward(c.yaw, m.r_radps, s) + (k.heading_rate * error_rate + correction);
-  return math::plus_product(held, k.inertia_norm, ref.psi_accel_radps2);
+  return math::plus_product(held, c.constants.inertia_norm, ref.psi_accel_radps2);
 }
 
 }  // namespace awmr

@@ -55,15 +55,9 @@ struct ObserverBlock {
   float sample_time_s;    ///< T_s, s: time between two steps
 };
 
-/// Gains of one mode, which replace the members of ControlConstants with the same names, and the
-/// observer of this mode.
+/// Gains of one mode, which replace ControlConstants::laws, and the observer of this mode.
 struct GainsBlock {
-  float lambda;              ///< 1/s
-  float heading_rate;        ///< s m
-  float heading_slope;       ///< s m
-  float heading_limit;       ///< m
-  float speed_slope;         ///< s/m
-  float speed_limit;         ///< dimensionless
+  LawConstants<float> laws;
   float observer_radps;      ///< ObserverBlock::bandwidth_radps; 0: no observer in this mode
   float observer_yaw_max_m;  ///< ObserverBlock::yaw_max_m
   float observer_surge_max;  ///< ObserverBlock::surge_max

@@ -53,14 +53,14 @@ AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T
 template <class T, class G>
 AWMR_INLINE T speed_law(const PreparedController<T, G>& c, const Measurement<T>& m,
                         const Reference<T>& ref) {
-  const ControlConstants<T>& k = c.constants;
+  const LawConstants<T>& k = c.constants.laws;
   const T error = ref.speed_mps - m.u_mps;
   const T wanted = k.speed_slope * error;
   const T correction = math::saturate(wanted, k.speed_limit);
   const T w_mps = fed_forward_speed(m.u_mps, ref, error, wanted, k.speed_limit, k.speed_slope);
   const T accel_mps2 = math::difference(ref.accel_mps2, T(m.r_radps * m.v_mps));
   return fed_forward(c.surge, w_mps, error) +
-         math::plus_product(correction, k.mass_norm, accel_mps2);
+         math::plus_product(correction, c.constants.mass_norm, accel_mps2);
 }
 
 }  // namespace awmr

@@ -185,18 +185,12 @@ std::optional<ModeGainsBlock> mode_gains_of(const Plant<double>& plant, const Mo
   if (gains.listed_modes().empty()) return {};
   ModeGainsBlock block{};
   for (const YawMode mode : gains.listed_modes()) {
-    const ControlConstants<float> c =
-        prepared(float_controller(plant, model, gains.in(mode))).constants;
     const ObserverGains<double>& observer = gains.in(mode).observer;
-    block.in[static_cast<int>(mode)] = {.lambda = c.lambda,
-                                        .heading_rate = c.heading_rate,
-                                        .heading_slope = c.heading_slope,
-                                        .heading_limit = c.heading_limit,
-                                        .speed_slope = c.speed_slope,
-                                        .speed_limit = c.speed_limit,
-                                        .observer_radps = single(observer.bandwidth_radps),
-                                        .observer_yaw_max_m = single(observer.yaw_max_m),
-                                        .observer_surge_max = single(observer.surge_max)};
+    block.in[static_cast<int>(mode)] = {
+        .laws = prepared(float_controller(plant, model, gains.in(mode))).constants.laws,
+        .observer_radps = single(observer.bandwidth_radps),
+        .observer_yaw_max_m = single(observer.yaw_max_m),
+        .observer_surge_max = single(observer.surge_max)};
   }
   if (gains.has_observer()) block.observer_sample_time_s = single(model.vehicle.sample_time_s);
   return block;

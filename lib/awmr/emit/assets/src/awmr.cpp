@@ -55,12 +55,12 @@ const awmr::ParameterBlock awmr_parameters AWMR_IN_FLASH = {
     {AWMR_YAW_ALPHA, AWMR_YAW_BETA},
     {AWMR_MASS_NORM,
      AWMR_INERTIA_NORM,
-     AWMR_HEADING_LAMBDA,
-     AWMR_INERTIA_NORM * AWMR_HEADING_LAMBDA,
-     AWMR_INERTIA_NORM * (AWMR_HEADING_MU / AWMR_HEADING_EPSILON),
-     AWMR_INERTIA_NORM * AWMR_HEADING_MU,
-     AWMR_MASS_NORM * (AWMR_SPEED_MU / AWMR_SPEED_EPSILON),
-     AWMR_MASS_NORM * AWMR_SPEED_MU,
+     {AWMR_HEADING_LAMBDA,
+      AWMR_INERTIA_NORM * AWMR_HEADING_LAMBDA,
+      AWMR_INERTIA_NORM * (AWMR_HEADING_MU / AWMR_HEADING_EPSILON),
+      AWMR_INERTIA_NORM * AWMR_HEADING_MU,
+      AWMR_MASS_NORM * (AWMR_SPEED_MU / AWMR_SPEED_EPSILON),
+      AWMR_MASS_NORM * AWMR_SPEED_MU},
      {4.0f * AWMR_ALLOCATED_FORCE_MIN, 4.0f * AWMR_ALLOCATED_FORCE_MAX, AWMR_ALLOCATED_FORCE_MIN,
       AWMR_ALLOCATED_FORCE_MAX, AWMR_FRONT_AXLE_M, AWMR_HALF_TRACK_M, 1.0f / AWMR_HALF_TRACK_M,
       AWMR_STEERING_MAX_RAD, AWMR_STEERING_MAX_TAN_HALF}},
@@ -101,12 +101,12 @@ const awmr::ObserverBlock awmr_tuned_observer AWMR_IN_FLASH = {
 
 #ifdef AWMR_HEADING_LAMBDA_DIFFERENTIAL
 #define AWMR_GAINS_IN(mode)                                                           \
-  {AWMR_HEADING_LAMBDA_##mode,                                                        \
-   AWMR_INERTIA_NORM * AWMR_HEADING_LAMBDA_##mode,                                    \
-   AWMR_INERTIA_NORM * (AWMR_HEADING_MU_##mode / AWMR_HEADING_EPSILON_##mode),        \
-   AWMR_INERTIA_NORM * AWMR_HEADING_MU_##mode,                                        \
-   AWMR_MASS_NORM * (AWMR_SPEED_MU_##mode / AWMR_SPEED_EPSILON_##mode),               \
-   AWMR_MASS_NORM * AWMR_SPEED_MU_##mode,                                             \
+  {{AWMR_HEADING_LAMBDA_##mode,                                                       \
+    AWMR_INERTIA_NORM * AWMR_HEADING_LAMBDA_##mode,                                   \
+    AWMR_INERTIA_NORM * (AWMR_HEADING_MU_##mode / AWMR_HEADING_EPSILON_##mode),       \
+    AWMR_INERTIA_NORM * AWMR_HEADING_MU_##mode,                                       \
+    AWMR_MASS_NORM * (AWMR_SPEED_MU_##mode / AWMR_SPEED_EPSILON_##mode),              \
+    AWMR_MASS_NORM * AWMR_SPEED_MU_##mode},                                           \
    AWMR_OBSERVER_IN(mode)}
 extern const awmr::ModeGainsBlock awmr_mode_gains;
 const awmr::ModeGainsBlock awmr_mode_gains AWMR_IN_FLASH = {
