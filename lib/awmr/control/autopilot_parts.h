@@ -1,6 +1,6 @@
-/// Optional parts of a firmware: disturbance observer, compensation of the motors' dead zone and
-/// back-EMF, gains by mode, and position estimate. The optional parts of the guidance are in
-/// guidance/parts.h.
+/// Optional parts of a firmware: disturbance observer, gains by mode, position estimate, and the
+/// list of all parts. The parts of the guidance are in guidance/parts.h, that of the motors in
+/// motor_curve.h.
 #pragma once
 
 #include <stdint.h>
@@ -9,7 +9,7 @@
 #include "awmr/control/control_step.h"
 #include "awmr/control/flash.h"
 #include "awmr/control/guidance/parts.h"
-#include "awmr/control/motor_command.h"
+#include "awmr/control/motor_curve.h"
 #include "awmr/control/optional_part.h"
 #include "awmr/control/parameters_block.h"
 #include "awmr/control/position_estimate.h"
@@ -42,23 +42,6 @@ struct Observer {
     read_flash(tuned, read);
     enable({{read.bandwidth_radps, read.yaw_max_m}, {read.bandwidth_radps, read.surge_max}, true},
            read.sample_time_s);
-  }
-};
-
-/// Increases the motor commands to compensate the dead zone and the back-EMF of the motors.
-struct MotorCurve {
-  float dead_zone;         ///< dead zone F'0 of a motor, divided by F_max; 0: none
-  float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
-  /// Parameters of this part, in flash on an AVR. Null: no dead zone, no back-EMF and no friction
-  /// that jumps at rest.
-  const RestBlock* rest;
-  uint8_t mode;  ///< YawMode to which the friction width of the yaw resistance g3 is set
-
-  void start(const RestBlock* block) {
-    rest = block;
-    mode = 0;  // start_autopilot() sets the yaw resistance g3 for this mode
-    dead_zone = rest != 0 ? flash_float(&rest->dead_zone) : 0.0F;
-    back_emf_s_per_m = rest != 0 ? flash_float(&rest->back_emf_s_per_m) : 0.0F;
   }
 };
 
@@ -127,25 +110,6 @@ AWMR_CALLED Position<float> position_now(Positioner<Filter>& part, const Autopil
   return part.estimate.step({in.position_m, age_s, is_new}, motion);
 }
 
-/// Replaces each force by the motor command that makes this force in spite of the dead zone. No-op
-/// if MotorCurve is not compiled in.
-AWMR_INLINE void make_up_dead_zone(const Disabled<MotorCurve>&, SideForces<float>&) {}
-inline void make_up_dead_zone(const MotorCurve& part, SideForces<float>& force) {
-  force = with_dead_zone(force, part.dead_zone);
-}
-
-/// Sets the friction width of the yaw resistance g3 to the width of `mode`, if the mode has
-/// changed. Below this yaw rate, the feed-forward of Coulomb friction changes smoothly with the yaw
-/// rate instead of jumping (Gains::friction_width_at()). No-op if MotorCurve is not compiled in.
-template <class G>
-AWMR_INLINE void use_friction_width(Disabled<MotorCurve>&, uint8_t, G&) {}
-template <class G>
-void use_friction_width(MotorCurve& part, uint8_t mode, G& yaw) {
-  if (mode == part.mode) return;
-  part.mode = mode;
-  if (part.rest != 0) set_friction_width(part.rest, mode, yaw);
-}
-
 /// Switches to the observer of a mode, or off if the mode has none. No-op if the observer is not
 /// compiled in.
 inline void use_observer(const GainsBlock&, float, Disabled<Observer>&) {}
@@ -174,28 +138,6 @@ void use_gains(GainsByMode& part, uint8_t mode, ControlConstants<float>& constan
   constants.laws = own.laws;
   const float sample_time_s = flash_float(&part.gains->observer_sample_time_s);
   if (sample_time_s > 0.0F) use_observer(own, sample_time_s, observation);
-}
-
-/// Returns the allocation limits at the speed u, m/s: the limits at rest, `c`, reduced by back-EMF
-/// if MotorCurve is compiled in.
-AWMR_INLINE const AllocationConstants<float>& limits_at(const Disabled<MotorCurve>&,
-                                                        const AllocationConstants<float>& c,
-                                                        const float& /*u_mps*/) {
-  return c;
-}
-inline AllocationConstants<float> limits_at(const MotorCurve& part,
-                                            const AllocationConstants<float>& c,
-                                            const float& u_mps) {
-  return at_speed(c, part.back_emf_s_per_m, u_mps);
-}
-
-/// Replaces each force by the motor drive that makes this force in spite of the back-EMF. No-op if
-/// MotorCurve is not compiled in.
-AWMR_INLINE void make_up_back_emf(const Disabled<MotorCurve>&, const AllocationConstants<float>&,
-                                  const Measurement<float>&, SideForces<float>&) {}
-inline void make_up_back_emf(const MotorCurve& part, const AllocationConstants<float>& c,
-                             const Measurement<float>& m, SideForces<float>& force) {
-  force = motor_drives(force, c, part.back_emf_s_per_m, m.u_mps, m.r_radps);
 }
 
 /// Computes the commands for the outputs of the control laws. If the disturbance observer is
