@@ -7,14 +7,15 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <climits>
 #include <cstring>
 #include <optional>
 #include <set>
+#include <thread>
 #include <utility>
 
-#include "awmr/core/opened_file.h"
-#include "awmr/core/output_target.h"
+#include "awmr/core/descriptor.h"
 #include "awmr/core/temporary_file.h"
 
 namespace awmr {
@@ -22,21 +23,90 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Maximum number of bytes requested in one call of read().
-constexpr std::size_t kBlock = std::size_t{1} << 18U;
+/// Error for an output that cannot be written, with the reason `why` or, without it, the text of
+/// errno.
+tl::unexpected<Error> write_error(const fs::path& path, const std::string& why) {
+  return input_error(ErrorCode::kCannotWrite, path.string(), "cannot write the file: " + why);
+}
 
-/// Appends the rest of a file to `bytes`. Stops as soon as there are more than `max_bytes`, which
-/// the caller reports. False if reading fails.
-bool read_all(int descriptor, std::size_t max_bytes, std::string& bytes) {
-  while (bytes.size() <= max_bytes) {
-    const std::size_t before = bytes.size();
-    bytes.resize(before + std::min(kBlock, max_bytes + 1 - before));
-    const ssize_t count = ::read(descriptor, bytes.data() + before, bytes.size() - before);
-    bytes.resize(before + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return count == 0;
+tl::unexpected<Error> write_error(const fs::path& path) {
+  return write_error(path, std::strerror(errno));
+}
+
+/// Where an output is written: a file, with symbolic links resolved, or a pipe or a device.
+struct OutputTarget {
+  fs::path path;  ///< with symbolic links resolved
+  bool exists = false;
+  bool is_stream = false;  ///< a terminal, a pipe or another device: written directly
+  struct stat status {};
+};
+
+constexpr int kMaxLinks = 40;  ///< maximum chain of symbolic links, as in Linux
+
+/// Resolves symbolic links. The last link may point to a missing file. Empty for a loop of links.
+std::optional<fs::path> resolved(fs::path path) {
+  std::error_code error;
+  for (int i = 0; i < kMaxLinks && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
+    const fs::path next = fs::read_symlink(path, error);
+    if (error) return std::nullopt;
+    path = next.is_absolute() ? next : path.parent_path() / next;
   }
-  return true;
+  if (fs::is_symlink(fs::symlink_status(path, error))) return std::nullopt;
+  return path;
+}
+
+/// Looks up an output. Errors (input): it is a directory, a read-only file or a file with a second
+/// hard link; its symbolic links form a loop; it cannot be looked up.
+Result<OutputTarget> output_target(const fs::path& path) {
+  OutputTarget target{.path = path};
+  target.exists = ::stat(path.c_str(), &target.status) == 0;
+  if (!target.exists && errno != ENOENT) return write_error(path);
+  if (target.exists && S_ISDIR(target.status.st_mode)) {
+    return write_error(path, "this is a directory; give a file");
+  }
+  target.is_stream = target.exists && !S_ISREG(target.status.st_mode);
+  if (target.is_stream) return target;
+  const auto file = resolved(path);
+  if (!file) return write_error(path, "its symbolic links form a loop; give another name");
+  target.path = *file;
+  if (!target.exists) return target;
+  const bool is_writable =
+      (target.status.st_mode & 0222U) != 0 && ::access(path.c_str(), W_OK) == 0;
+  if (!is_writable) {
+    return write_error(path, "it is read-only; make it writable or give another name");
+  }
+  if (target.status.st_nlink > 1) {
+    return write_error(path,
+                       "the file has a second name (hard link), under which the old content would "
+                       "remain; remove one of the two or give another name");
+  }
+  return target;
+}
+
+/// Opens a pipe or device for writing. Waits up to kPipeWait_s until a program reads the pipe.
+Result<Descriptor> open_stream(const fs::path& path) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPipeWait_s);
+  while (true) {
+    Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK));
+    if (file.number() >= 0) {
+      ::fcntl(file.number(), F_SETFL, ::fcntl(file.number(), F_GETFL) & ~O_NONBLOCK);
+      return file;
+    }
+    if (errno != ENXIO) return write_error(path);
+    if (std::chrono::steady_clock::now() > end) {
+      return write_error(path, fmt::format("no program reads this pipe after {:g} s; start the "
+                                           "reader first, or give a file",
+                                           kPipeWait_s));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+/// Writes to a pipe or device. Errors (input): no program reads the pipe; writing fails.
+Status write_stream(const fs::path& path, std::string_view bytes) {
+  AWMR_ASSIGN_OR_RETURN(const Descriptor file, open_stream(path));
+  if (!write_all(file.number(), bytes)) return write_error(path);
+  return {};
 }
 
 /// Checks an output with `read_back` before it is written. Rejected bytes are an internal error
@@ -125,22 +195,6 @@ Status finish(std::vector<Staged> files) {
 }
 
 }  // namespace
-
-Result<std::string> read_file(const fs::path& path, std::size_t max_bytes) {
-  AWMR_ASSIGN_OR_RETURN(const OpenedFile file, OpenedFile::open(path));
-  std::string bytes;
-  bytes.reserve(std::min(file.size(), max_bytes) + kBlock);
-  if (file.size() <= max_bytes && !read_all(file.descriptor(), max_bytes, bytes)) {
-    return input_error(ErrorCode::kCannotRead, file.name(),
-                       std::string("cannot read the file: ") + std::strerror(errno));
-  }
-  if (std::max(file.size(), bytes.size()) > max_bytes) {
-    return too_long_error(file.name(), max_bytes);
-  }
-  AWMR_RETURN_IF_ERROR(file.check_unchanged());
-  if (bytes.size() < file.size()) return became_shorter_error(file.name());
-  return bytes;
-}
 
 Status write_file(const fs::path& path, std::string_view bytes, const ReadBack& read_back) {
   AWMR_ASSIGN_OR_RETURN(Staged file, stage(path, bytes, read_back));
