@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "awmr/core/file.h"
+#include "awmr/core/input_file.h"
 #include "awmr/core/json.h"
 #include "awmr/trials/awl.h"
 #include "commands.h"
@@ -45,7 +46,8 @@ std::string origin_of(const AwlLog& log, const InputFile& input) {
 
 Result<Outcome> execute(const LogCommand& command) {
   AWMR_RETURN_IF_ERROR(check_output(command.output, {{command.file}}));
-  AWMR_ASSIGN_OR_RETURN(const AwlLog log, read_awl_file(command.file));
+  AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(command.file));
+  AWMR_ASSIGN_OR_RETURN(const AwlLog log, read_awl(bytes, command.file.string()));
   AWMR_ASSIGN_OR_RETURN(const auto inputs, input_files({command.file}));
   AWMR_RETURN_IF_ERROR(write_file(command.output, origin_of(log, inputs.front()) + log_csv(log)));
   Outcome outcome{.summary = summary_of(log, command),

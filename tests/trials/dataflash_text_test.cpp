@@ -1,13 +1,11 @@
 /// ArduPilot's logs as text: the same signals as from the binary form of the drive, and all kinds
 /// of invalid lines.
-#include "awmr/trials/dataflash_text.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "awmr/trials/dataflash.h"
+#include "awmr/trials/log_formats.h"
 #include "awmr/trials/read_trials.h"
 #include "binary_text.h"
 #include "trial_text.h"

@@ -1,7 +1,5 @@
 /// SysId's JSON: runs, units and signs of a drive with known motion, and all kinds of incomplete
 /// records.
-#include "awmr/trials/sysid.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "awmr/core/units.h"
 #include "awmr/trials/column_guess.h"
+#include "awmr/trials/log_formats.h"
 #include "trial_text.h"
 
 namespace awmr::testing::sysid_test {
@@ -55,7 +54,7 @@ json record(bool is_signed = true) {
           {"fast-backward", json::array()}};
 }
 
-const std::vector<double>& column(const SysIdLog& log, std::string_view name) {
+const std::vector<double>& column(const ColumnLog& log, std::string_view name) {
   const auto found = std::ranges::find(log.header, name);
   if (found == log.header.end()) throw std::runtime_error(std::string(name));
   return log.columns[static_cast<std::size_t>(found - log.header.begin())];

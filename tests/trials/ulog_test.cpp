@@ -1,11 +1,10 @@
 /// PX4 ULog: signals read, and all kinds of invalid files.
-#include "awmr/trials/ulog.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
 
+#include "awmr/trials/log_formats.h"
 #include "awmr/trials/read_trials.h"
 #include "binary_text.h"
 #include "trial_text.h"

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "awl_format.h"
 #include "awmr/control/safety.h"
 #include "awmr/core/csv.h"
-#include "awmr/core/input_file.h"
 #include "log_channels.h"
 
 namespace awmr {
@@ -176,11 +176,6 @@ Result<AwlLog> read_awl(std::string_view bytes, const std::string& file) {
   fill_columns(bytes, scan.layout, rows, log);
   report_resets(bytes, scan.layout, rows, file, log);
   return log;
-}
-
-Result<AwlLog> read_awl_file(const std::filesystem::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));
-  return read_awl(bytes, path.string());
 }
 
 std::string log_csv(const AwlLog& log) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,10 +45,6 @@ bool is_awl(std::string_view bytes);
 /// Errors (input): no complete header; a header that layout_of() refuses (awl_format.cpp); two
 /// headers that differ; more than 1000 damaged headers. Errors (refused): no usable row.
 Result<AwlLog> read_awl(std::string_view bytes, const std::string& file);
-
-/// Reads a file by read_awl(), and records the hash of the file as an input of the command. Errors:
-/// those of read_awl() and read_input().
-Result<AwlLog> read_awl_file(const std::filesystem::path& path);
 
 /// Returns the log as CSV text. Numbers are written in the shortest form that reads back exactly.
 std::string log_csv(const AwlLog& log);

@@ -1,5 +1,3 @@
-#include "csv_topics.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "awmr/core/csv_text.h"
 #include "awmr/core/input_file.h"
 #include "awmr/core/time_column.h"
+#include "log_formats.h"
 
 namespace awmr {
 namespace {

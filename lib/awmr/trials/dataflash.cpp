@@ -1,5 +1,3 @@
-#include "dataflash.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,10 +8,13 @@
 #include "awmr/core/text.h"
 #include "byte_reader.h"
 #include "dataflash_format.h"
+#include "log_formats.h"
 
 namespace awmr {
 namespace {
 
+// Every record begins with these two bytes and its type. An FMT record defines the length and the
+// fields of one type.
 constexpr std::string_view kRecordSync("\xA3\x95", 2);
 constexpr std::uint8_t kFormatType = 128;
 constexpr std::size_t kFormatBytes = 89;

@@ -10,6 +10,8 @@
 namespace awmr::dataflash {
 namespace {
 
+/// Kinds c, C, e and E are hundredths; L is 1e-7 degrees. Texts, arrays and 16-bit floats are not
+/// read.
 constexpr std::array<FieldKind, 21> kKinds{
     {{'a', 64, 0.0}, {'b', 1, 1.0},  {'B', 1, 1.0},  {'h', 2, 1.0},  {'H', 2, 1.0},  {'i', 4, 1.0},
      {'I', 4, 1.0},  {'f', 4, 1.0},  {'d', 8, 1.0},  {'n', 4, 0.0},  {'N', 16, 0.0}, {'Z', 64, 0.0},

@@ -1,4 +1,7 @@
-#include "dataflash_text.h"
+// The text form of ArduPilot's DataFlash logs has one record per line. The values are already scaled.
+//
+//     FMT, 129, 31, ATT, QffBB, TimeUS,Roll,Yaw,NSats,I
+//     ATT, 1000000, 0.5, 91.25, 8, 0
 
 #include <fmt/format.h>
 
@@ -11,6 +14,7 @@
 
 #include "awmr/core/text.h"
 #include "dataflash_format.h"
+#include "log_formats.h"
 
 namespace awmr {
 namespace {

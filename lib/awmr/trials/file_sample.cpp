@@ -5,12 +5,10 @@
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/csv_text.h"
 #include "awmr/core/input_file.h"
-#include "awmr/trials/awl.h"
 #include "awmr/trials/column_guess.h"
 #include "awmr/trials/log_files.h"
 #include "awmr/trials/trial_columns.h"
 #include "read_table.h"
-#include "sysid.h"
 
 namespace awmr {
 namespace {
@@ -47,9 +45,8 @@ FileSample sample_of_signals(const Signals& signals) {
   return sample;
 }
 
-FileSample sample_of_columns(std::vector<std::string> names,
-                             std::vector<std::vector<double>> columns) {
-  FileSample sample{.names = std::move(names), .values = std::move(columns), .texts = {}};
+FileSample sample_of_columns(ColumnLog log) {
+  FileSample sample{.names = std::move(log.header), .values = std::move(log.columns), .texts = {}};
   sample.texts.resize(sample.names.size());
   for (std::vector<double>& values : sample.values) {
     values.resize(std::min(values.size(), kSampleRows));
@@ -82,13 +79,9 @@ Result<FileSample> sample_of(const fs::path& path) {
     return sample_of_tables(paths);
   }
   AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(paths.front()));
-  if (is_awl(bytes)) {
-    AWMR_ASSIGN_OR_RETURN(AwlLog log, read_awl(bytes, paths.front().string()));
-    return sample_of_columns(std::move(log.header), std::move(log.columns));
-  }
-  if (is_sysid(bytes)) {
-    AWMR_ASSIGN_OR_RETURN(SysIdLog log, read_sysid(bytes, paths.front().string()));
-    return sample_of_columns(std::move(log.header), std::move(log.columns));
+  if (auto log = read_columns(bytes, paths.front().string())) {
+    if (!*log) return tl::unexpected(std::move(*log).error());
+    return sample_of_columns(std::move(**log));
   }
   const auto signals = read_signals(bytes, paths.front().string(), all);
   if (!signals) return sample_of_text(bytes, path.string());

@@ -14,17 +14,23 @@
 #include "awmr/trials/awl.h"
 #include "awmr/trials/log_files.h"
 #include "awmr/trials/trial_columns.h"
-#include "csv_topics.h"
-#include "dataflash.h"
-#include "dataflash_text.h"
-#include "rosbag.h"
-#include "sysid.h"
-#include "ulog.h"
 
 namespace awmr {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Finds the requested columns in `raw`, whose columns have the names `header`.
+Result<CsvTable> requested_columns(RawTable raw, const std::vector<std::string>& header,
+                                   std::span<const CsvColumn> columns,
+                                   std::span<const ColumnMapping> mappings) {
+  ColumnSources sources = find_columns(header, {}, columns, mappings, raw.file);
+  std::vector<Fault> faults;
+  for (HeaderFault& fault : sources.faults) {
+    faults.push_back({fault.code, raw.file, std::move(fault.message)});
+  }
+  return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
+}
 
 Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
                                   std::span<const CsvColumn> columns,
@@ -33,48 +39,26 @@ Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
   header.insert(header.end(), topics.signals.header.begin(), topics.signals.header.end());
   AWMR_ASSIGN_OR_RETURN(RawTable raw, join(std::move(topics.signals), file));
   raw.mapped = std::move(topics.mapped);
-  ColumnSources sources = find_columns(header, {}, columns, mappings, file);
-  std::vector<Fault> faults;
-  for (HeaderFault& fault : sources.faults)
-    faults.push_back({fault.code, file, std::move(fault.message)});
-  return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
+  return requested_columns(std::move(raw), header, columns, mappings);
 }
 
-/// Builds a table from columns that were read from a file without text lines.
-Result<CsvTable> table_of_columns(std::vector<std::string> header,
-                                  std::vector<std::vector<double>> values,
-                                  std::vector<CsvNote> notes, const std::string& file,
+Result<CsvTable> table_of_columns(ColumnLog log, const std::string& file,
                                   std::span<const CsvColumn> columns,
                                   std::span<const ColumnMapping> mappings) {
   RawTable raw{.file = file};
-  raw.lines.append(1, values.empty() ? 0 : values.front().size());
-  for (std::vector<double>& column : values) raw.columns.push_back({std::move(column)});
-  raw.notes = std::move(notes);
-  ColumnSources sources = find_columns(header, {}, columns, mappings, file);
-  std::vector<Fault> faults;
-  for (HeaderFault& fault : sources.faults)
-    faults.push_back({fault.code, file, std::move(fault.message)});
-  return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
+  raw.lines.append(1, log.rows());
+  for (std::vector<double>& column : log.columns) raw.columns.push_back({std::move(column)});
+  raw.notes = std::move(log.notes);
+  return requested_columns(std::move(raw), log.header, columns, mappings);
 }
 
-Result<CsvTable> table_of_awl(std::string_view bytes, const std::string& file,
-                              std::span<const CsvColumn> columns,
-                              std::span<const ColumnMapping> mappings) {
+Result<ColumnLog> columns_of_awl(std::string_view bytes, const std::string& file) {
   AWMR_ASSIGN_OR_RETURN(AwlLog log, read_awl(bytes, file));
-  std::vector<CsvNote> notes;
+  ColumnLog columns{.header = std::move(log.header), .columns = std::move(log.columns)};
   for (Finding& finding : log.findings) {
-    notes.push_back({finding.line, std::move(finding.code), std::move(finding.message)});
+    columns.notes.push_back({finding.line, std::move(finding.code), std::move(finding.message)});
   }
-  return table_of_columns(std::move(log.header), std::move(log.columns), std::move(notes), file,
-                          columns, mappings);
-}
-
-Result<CsvTable> table_of_sysid(std::string_view bytes, const std::string& file,
-                                std::span<const CsvColumn> columns,
-                                std::span<const ColumnMapping> mappings) {
-  AWMR_ASSIGN_OR_RETURN(SysIdLog log, read_sysid(bytes, file));
-  return table_of_columns(std::move(log.header), std::move(log.columns), std::move(log.notes), file,
-                          columns, mappings);
+  return columns;
 }
 
 /// Appends the signals of the next file of a split bag; topics with the same name become one topic.
@@ -124,6 +108,12 @@ std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::s
   return std::nullopt;
 }
 
+std::optional<Result<ColumnLog>> read_columns(std::string_view bytes, const std::string& file) {
+  if (is_awl(bytes)) return columns_of_awl(bytes, file);
+  if (is_sysid(bytes)) return read_sysid(bytes, file);
+  return std::nullopt;
+}
+
 Result<CsvTable> read_table(const fs::path& path, TrialKind kind, const TrialOptions& options) {
   return read_table(path, columns_of(kind), options);
 }
@@ -146,8 +136,10 @@ Result<CsvTable> read_table(const fs::path& path, std::span<const CsvColumn> col
     return table_of_signals(std::move(topics), file, columns, options.columns);
   }
   AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));
-  if (is_awl(bytes)) return table_of_awl(bytes, file, columns, options.columns);
-  if (is_sysid(bytes)) return table_of_sysid(bytes, file, columns, options.columns);
+  if (auto log = read_columns(bytes, file)) {
+    if (!*log) return tl::unexpected(std::move(*log).error());
+    return table_of_columns(std::move(**log), file, columns, options.columns);
+  }
   auto signals = read_signals(bytes, file, wanted);
   if (!signals) return read_csv_text(bytes, file, columns, options.columns);
   if (!*signals) return tl::unexpected(std::move(*signals).error());

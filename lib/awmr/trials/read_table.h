@@ -9,7 +9,7 @@
 
 #include "awmr/core/csv.h"
 #include "awmr/trials/read_trials.h"
-#include "signals.h"
+#include "log_formats.h"
 
 namespace awmr {
 
@@ -18,6 +18,9 @@ namespace awmr {
 /// format.
 std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::string& file,
                                             const Wanted& wanted);
+
+/// Reads a log of the emitted firmware or a SysId record. Empty if `bytes` are in another format.
+std::optional<Result<ColumnLog>> read_columns(std::string_view bytes, const std::string& file);
 
 /// Reads the requested columns of a file. The first bytes of the file determine the format: ULog,
 /// DataFlash, ROS 2 bag in SQLite, log of the emitted firmware (`.awl`), JSON of WPILib's SysId,

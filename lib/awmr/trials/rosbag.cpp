@@ -1,5 +1,3 @@
-#include "rosbag.h"
-
 #include <fmt/format.h>
 #include <sqlite3.h>
 
@@ -8,6 +6,7 @@
 #include <utility>
 
 #include "awmr/core/text.h"
+#include "log_formats.h"
 #include "ros_message.h"
 
 namespace awmr {

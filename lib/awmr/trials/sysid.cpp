@@ -1,4 +1,19 @@
-#include "sysid.h"
+// The JSON of WPILib's SysId:
+//
+//     {"sysid": true, "test": "Drivetrain", "units": "Meters", "unitsPerRotation": 0.4788,
+//      "slow-forward": [[t, left V, right V, left rot, right rot, left rot/s, right rot/s,
+//                        rad, rad/s], ...],
+//      "slow-backward": ..., "fast-forward": ..., "fast-backward": ...}
+//
+// Each test ("slow-forward", ...) becomes a run. "rot" are positions of the wheels in rotations,
+// "rot/s" their velocities; both are converted to metres with unitsPerRotation and units. "rad" is
+// the heading, "rad/s" the yaw rate, "V" the voltage of the motors.
+//                      [wpilibsuite/sysid, docs/data-collection.md and AnalysisManager.cpp]
+// The count of numbers in the first row determines their meaning:
+//     9   Drivetrain, Drivetrain (Angular)    as above
+//     4   Simple, General Mechanism           t, V, rotations, rotations/s
+//     10  frc-characterization (older tool)   t, battery V, autospeed, left V, right V, left and
+//                                             right rotations, left and right rotations/s, rad
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +26,7 @@
 
 #include "awmr/core/json_document.h"
 #include "awmr/core/units.h"
+#include "log_formats.h"
 
 namespace awmr {
 namespace {
@@ -44,39 +60,32 @@ struct SysIdRow {
   bool is_drivetrain;
 };
 
-const SysIdRow& drivetrain_form() {
-  static const SysIdRow kForm{9,
-                              {{1, "left_volts"},
-                               {2, "right_volts"},
-                               {3, "left_m", SysIdUnit::kMetres},
-                               {4, "right_m", SysIdUnit::kMetres},
-                               {5, "left_mps", SysIdUnit::kMetres},
-                               {6, "right_mps", SysIdUnit::kMetres},
-                               {7, "heading_deg", SysIdUnit::kDegrees},
-                               {8, "yaw_rate_radps"}},
-                              true};
-  return kForm;
-}
-
-const SysIdRow& old_drivetrain_form() {
-  static const SysIdRow kForm{10,
-                              {{3, "left_volts"},
-                               {4, "right_volts"},
-                               {5, "left_m", SysIdUnit::kMetres},
-                               {6, "right_m", SysIdUnit::kMetres},
-                               {7, "left_mps", SysIdUnit::kMetres},
-                               {8, "right_mps", SysIdUnit::kMetres},
-                               {9, "heading_deg", SysIdUnit::kDegrees}},
-                              true};
-  return kForm;
-}
-
-const SysIdRow& simple_form() {
-  static const SysIdRow kForm{
-      4,
-      {{1, "volts"}, {2, "position_m", SysIdUnit::kMetres}, {3, "speed_mps", SysIdUnit::kMetres}},
-      false};
-  return kForm;
+const std::array<SysIdRow, 3>& sysid_rows() {
+  static const std::array<SysIdRow, 3> kRows{{{.numbers = 9,
+                                               .fields = {{1, "left_volts"},
+                                                          {2, "right_volts"},
+                                                          {3, "left_m", SysIdUnit::kMetres},
+                                                          {4, "right_m", SysIdUnit::kMetres},
+                                                          {5, "left_mps", SysIdUnit::kMetres},
+                                                          {6, "right_mps", SysIdUnit::kMetres},
+                                                          {7, "heading_deg", SysIdUnit::kDegrees},
+                                                          {8, "yaw_rate_radps"}},
+                                               .is_drivetrain = true},
+                                              {.numbers = 10,
+                                               .fields = {{3, "left_volts"},
+                                                          {4, "right_volts"},
+                                                          {5, "left_m", SysIdUnit::kMetres},
+                                                          {6, "right_m", SysIdUnit::kMetres},
+                                                          {7, "left_mps", SysIdUnit::kMetres},
+                                                          {8, "right_mps", SysIdUnit::kMetres},
+                                                          {9, "heading_deg", SysIdUnit::kDegrees}},
+                                               .is_drivetrain = true},
+                                              {.numbers = 4,
+                                               .fields = {{1, "volts"},
+                                                          {2, "position_m", SysIdUnit::kMetres},
+                                                          {3, "speed_mps", SysIdUnit::kMetres}},
+                                               .is_drivetrain = false}}};
+  return kRows;
 }
 
 class SysIdReader {
@@ -84,7 +93,7 @@ class SysIdReader {
   SysIdReader(const Json& document, std::string file)
       : document_(document), file_(std::move(file)) {}
 
-  Result<SysIdLog> read();
+  Result<ColumnLog> read();
 
  private:
   void fault(ErrorCode code, const std::string& pointer, std::string message) {
@@ -96,13 +105,14 @@ class SysIdReader {
   double read_metres_per_rotation();
   bool check_row(const Json& row, const std::string& pointer, const SysIdRow& form);
   void read_run(std::string_view test, const SysIdRow& form);
+  std::vector<double>& values_of(std::string_view column);
   void correct_voltage_signs(std::size_t begin, const SysIdRow& form, std::string_view test);
   void add_speed();
 
   const Json& document_;
   std::string file_;
   std::vector<Fault> faults_ = {};
-  SysIdLog log_ = {};
+  ColumnLog log_ = {};
   double metres_ = 1.0;  ///< metres per rotation
   double runs_ = 0.0;
   std::vector<std::string> tests_ = {};
@@ -131,8 +141,8 @@ const SysIdRow* SysIdReader::find_form() {
     const auto rows = document_.find(name);
     if (rows == document_.end() || !rows->is_array() || rows->empty()) continue;
     const Json& first = rows->front();
-    for (const SysIdRow* form : {&drivetrain_form(), &old_drivetrain_form(), &simple_form()}) {
-      if (first.is_array() && first.size() == form->numbers) return form;
+    for (const SysIdRow& form : sysid_rows()) {
+      if (first.is_array() && first.size() == form.numbers) return &form;
     }
     fault(ErrorCode::kWrongType, fmt::format("/{}/0", name),
           "expected 9 numbers (drivetrain), 4 (simple mechanism) or 10 (frc-characterization)");
@@ -218,14 +228,15 @@ void SysIdReader::read_run(std::string_view test, const SysIdRow& form) {
   tests_.emplace_back(test);
 }
 
+std::vector<double>& SysIdReader::values_of(std::string_view column) {
+  const auto found = std::ranges::find(log_.header, column);
+  return log_.columns[static_cast<std::size_t>(found - log_.header.begin())];
+}
+
 /// Makes voltages without sign negative, as read_sysid() describes. (SysId itself gives a voltage
 /// the sign of the wheels' velocity.)
 void SysIdReader::correct_voltage_signs(std::size_t begin, const SysIdRow& form,
                                         std::string_view test) {
-  const auto values_of = [&](std::string_view name) -> std::vector<double>& {
-    const auto found = std::ranges::find(log_.header, name);
-    return log_.columns[static_cast<std::size_t>(found - log_.header.begin())];
-  };
   using Pair = std::pair<std::string_view, std::string_view>;
   const std::vector<Pair> pairs =
       form.is_drivetrain
@@ -252,10 +263,6 @@ void SysIdReader::correct_voltage_signs(std::size_t begin, const SysIdRow& form,
 
 /// Adds the column speed_mps of a drivetrain: the mean of its left and right speeds.
 void SysIdReader::add_speed() {
-  const auto values_of = [&](std::string_view name) -> const std::vector<double>& {
-    const auto found = std::ranges::find(log_.header, name);
-    return log_.columns[static_cast<std::size_t>(found - log_.header.begin())];
-  };
   std::vector<double> speed = values_of("left_mps");
   const std::vector<double>& right = values_of("right_mps");
   for (std::size_t i = 0; i < speed.size(); ++i) speed[i] = 0.5 * (speed[i] + right[i]);
@@ -263,7 +270,7 @@ void SysIdReader::add_speed() {
   log_.columns.push_back(std::move(speed));
 }
 
-Result<SysIdLog> SysIdReader::read() {
+Result<ColumnLog> SysIdReader::read() {
   if (!document_.is_object()) {
     return input_error(ErrorCode::kWrongFile, file_, "expected an object, as SysId writes it");
   }
@@ -305,7 +312,7 @@ bool is_sysid(std::string_view bytes) {
   });
 }
 
-Result<SysIdLog> read_sysid(std::string_view bytes, const std::string& file) {
+Result<ColumnLog> read_sysid(std::string_view bytes, const std::string& file) {
   AWMR_ASSIGN_OR_RETURN(const Json document, read_json_text(bytes, file));
   return SysIdReader(document, file).read();
 }

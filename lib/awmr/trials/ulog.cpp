@@ -1,5 +1,3 @@
-#include "ulog.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <utility>
 
 #include "byte_reader.h"
+#include "log_formats.h"
 #include "ulog_format.h"
 
 namespace awmr {
