@@ -1,5 +1,6 @@
 #include "ros_message.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -14,7 +15,9 @@ enum class Part { kHeader, kText, kFloat32, kFloat64, kSkipped9, kSkipped36 };
 
 struct Piece {
   Part part;
-  std::string_view name;  ///< name of the signal if the part is a number, else empty
+  std::string_view name = {};  ///< name of the signal if the part is a number
+  /// If not empty, the part has one number per letter, with the signals NAME.x, NAME.y, ...
+  std::string_view axes = {};
 };
 
 struct MessageType {
@@ -24,64 +27,38 @@ struct MessageType {
 
 constexpr Part kD = Part::kFloat64;
 
-std::vector<Piece> imu() {
-  return {
-      {Part::kHeader, ""},           {kD, "orientation.x"},         {kD, "orientation.y"},
-      {kD, "orientation.z"},         {kD, "orientation.w"},         {Part::kSkipped9, ""},
-      {kD, "angular_velocity.x"},    {kD, "angular_velocity.y"},    {kD, "angular_velocity.z"},
-      {Part::kSkipped9, ""},         {kD, "linear_acceleration.x"}, {kD, "linear_acceleration.y"},
-      {kD, "linear_acceleration.z"}, {Part::kSkipped9, ""}};
-}
-
-std::vector<Piece> odometry() {
-  return {{Part::kHeader, ""},
-          {Part::kText, ""},
-          {kD, "pose.pose.position.x"},
-          {kD, "pose.pose.position.y"},
-          {kD, "pose.pose.position.z"},
-          {kD, "pose.pose.orientation.x"},
-          {kD, "pose.pose.orientation.y"},
-          {kD, "pose.pose.orientation.z"},
-          {kD, "pose.pose.orientation.w"},
-          {Part::kSkipped36, ""},
-          {kD, "twist.twist.linear.x"},
-          {kD, "twist.twist.linear.y"},
-          {kD, "twist.twist.linear.z"},
-          {kD, "twist.twist.angular.x"},
-          {kD, "twist.twist.angular.y"},
-          {kD, "twist.twist.angular.z"},
-          {Part::kSkipped36, ""}};
-}
-
 /// Supported types, as in the public message definitions. Covariances are skipped.
 const std::array<MessageType, 7>& types() {
   static const std::array<MessageType, 7> kTypes{
       {{"std_msgs/msg/Float32", {{Part::kFloat32, "data"}}},
        {"std_msgs/msg/Float64", {{kD, "data"}}},
-       {"geometry_msgs/msg/Twist",
-        {{kD, "linear.x"},
-         {kD, "linear.y"},
-         {kD, "linear.z"},
-         {kD, "angular.x"},
-         {kD, "angular.y"},
-         {kD, "angular.z"}}},
+       {"geometry_msgs/msg/Twist", {{kD, "linear", "xyz"}, {kD, "angular", "xyz"}}},
        {"geometry_msgs/msg/TwistStamped",
-        {{Part::kHeader, ""},
-         {kD, "twist.linear.x"},
-         {kD, "twist.linear.y"},
-         {kD, "twist.linear.z"},
-         {kD, "twist.angular.x"},
-         {kD, "twist.angular.y"},
-         {kD, "twist.angular.z"}}},
+        {{Part::kHeader}, {kD, "twist.linear", "xyz"}, {kD, "twist.angular", "xyz"}}},
        {"ackermann_msgs/msg/AckermannDriveStamped",
-        {{Part::kHeader, ""},
+        {{Part::kHeader},
          {Part::kFloat32, "drive.steering_angle"},
          {Part::kFloat32, "drive.steering_angle_velocity"},
          {Part::kFloat32, "drive.speed"},
          {Part::kFloat32, "drive.acceleration"},
          {Part::kFloat32, "drive.jerk"}}},
-       {"sensor_msgs/msg/Imu", imu()},
-       {"nav_msgs/msg/Odometry", odometry()}}};
+       {"sensor_msgs/msg/Imu",
+        {{Part::kHeader},
+         {kD, "orientation", "xyzw"},
+         {Part::kSkipped9},
+         {kD, "angular_velocity", "xyz"},
+         {Part::kSkipped9},
+         {kD, "linear_acceleration", "xyz"},
+         {Part::kSkipped9}}},
+       {"nav_msgs/msg/Odometry",
+        {{Part::kHeader},
+         {Part::kText},
+         {kD, "pose.pose.position", "xyz"},
+         {kD, "pose.pose.orientation", "xyzw"},
+         {Part::kSkipped36},
+         {kD, "twist.twist.linear", "xyz"},
+         {kD, "twist.twist.angular", "xyz"},
+         {Part::kSkipped36}}}}};
   return kTypes;
 }
 
@@ -123,7 +100,7 @@ class CdrReader {
   ByteReader body_;
 };
 
-/// Reads one element and appends a number to `values`; false at the end of the bytes.
+/// Reads one element and appends its numbers to `values`; false at the end of the bytes.
 bool take(const Piece& piece, CdrReader& reader, std::vector<double>& values) {
   switch (piece.part) {
     case Part::kHeader:
@@ -139,11 +116,13 @@ bool take(const Piece& piece, CdrReader& reader, std::vector<double>& values) {
       values.push_back(static_cast<double>(value.value_or(0.0F)));
       return value.has_value();
     }
-    case Part::kFloat64: {
-      const auto value = reader.number<double>();
-      values.push_back(value.value_or(0.0));
-      return value.has_value();
-    }
+    case Part::kFloat64:
+      for (std::size_t i = 0; i < std::max<std::size_t>(piece.axes.size(), 1); ++i) {
+        const auto value = reader.number<double>();
+        if (!value) return false;
+        values.push_back(*value);
+      }
+      return true;
   }
   return false;
 }
@@ -155,7 +134,9 @@ std::optional<std::vector<std::string>> ros_fields(std::string_view type) {
   if (found == nullptr) return std::nullopt;
   std::vector<std::string> names;
   for (const Piece& piece : found->pieces) {
-    if (!piece.name.empty()) names.emplace_back(piece.name);
+    const std::string name(piece.name);
+    for (const char axis : piece.axes) names.push_back(name + "." + axis);
+    if (piece.axes.empty() && !name.empty()) names.push_back(name);
   }
   return names;
 }
