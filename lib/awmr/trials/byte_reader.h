@@ -27,6 +27,12 @@ T number_in(std::string_view bytes, bool big = false) {
   return std::bit_cast<T>(static_cast<Bits>(bits));
 }
 
+/// As number_in(), for numbers with the least significant byte first, converted to double.
+template <class T>
+double read_number(std::string_view bytes) {
+  return static_cast<double>(number_in<T>(bytes));
+}
+
 /// Bytes with a read position.
 class ByteReader {
  public:

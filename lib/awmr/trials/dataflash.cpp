@@ -134,7 +134,7 @@ std::map<TopicKey, Listed> list_topics(const Contents& contents, const Wanted& w
     Listed entry{.topic = signals.topics.size(), .wanted = {}};
     for (std::size_t i = 0; i < format.fields.size(); ++i) {
       const dataflash::Field& field = format.fields[i];
-      if (i == *format.time || i == format.instance || field.kind->scale == 0.0) continue;
+      if (i == *format.time || i == format.instance || field.kind->read == nullptr) continue;
       const std::string& name = signals.header.emplace_back(topic.name + "." + field.name);
       if (!wanted(name)) continue;
       topic.columns.push_back(signals.header.size() - 1);
@@ -192,7 +192,7 @@ Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
     topic.time_ns.push_back(*time_ns);
     for (std::size_t i = 0; i < entry->second.wanted.size(); ++i) {
       const dataflash::Field& field = *entry->second.wanted[i];
-      topic.values[i].push_back(dataflash::value_in(record.substr(field.offset), *field.kind));
+      topic.values[i].push_back(field.kind->scale * field.kind->read(record.substr(field.offset)));
     }
     return {};
   };

@@ -10,13 +10,25 @@
 namespace awmr::dataflash {
 namespace {
 
-/// Kinds c, C, e and E are hundredths; L is 1e-7 degrees. Texts, arrays and 16-bit floats are not
-/// read.
+template <class T>
+constexpr FieldKind kind(char character, double scale = 1.0) {
+  return {character, sizeof(T), scale, read_number<T>};
+}
+
+/// A text, an array or a number of 16 bits with a decimal point.
+constexpr FieldKind skipped(char character, std::size_t bytes) {
+  return {character, bytes, 0.0, nullptr};
+}
+
+/// Kinds c, C, e and E are hundredths; L is 1e-7 degrees.
 constexpr std::array<FieldKind, 21> kKinds{
-    {{'a', 64, 0.0}, {'b', 1, 1.0},  {'B', 1, 1.0},  {'h', 2, 1.0},  {'H', 2, 1.0},  {'i', 4, 1.0},
-     {'I', 4, 1.0},  {'f', 4, 1.0},  {'d', 8, 1.0},  {'n', 4, 0.0},  {'N', 16, 0.0}, {'Z', 64, 0.0},
-     {'c', 2, 0.01}, {'C', 2, 0.01}, {'e', 4, 0.01}, {'E', 4, 0.01}, {'L', 4, 1e-7}, {'M', 1, 1.0},
-     {'q', 8, 1.0},  {'Q', 8, 1.0},  {'g', 2, 0.0}}};
+    kind<std::int8_t>('b'),        kind<std::uint8_t>('B'),        kind<std::uint8_t>('M'),
+    kind<std::int16_t>('h'),       kind<std::uint16_t>('H'),       kind<std::int32_t>('i'),
+    kind<std::uint32_t>('I'),      kind<std::int64_t>('q'),        kind<std::uint64_t>('Q'),
+    kind<float>('f'),              kind<double>('d'),              kind<std::int16_t>('c', 0.01),
+    kind<std::uint16_t>('C', 0.01), kind<std::int32_t>('e', 0.01), kind<std::uint32_t>('E', 0.01),
+    kind<std::int32_t>('L', 1e-7), skipped('a', 64),               skipped('n', 4),
+    skipped('N', 16),              skipped('Z', 64),               skipped('g', 2)};
 
 const FieldKind* kind_of(char character) {
   for (const FieldKind& kind : kKinds) {
@@ -38,36 +50,6 @@ std::vector<std::string> names_of(const std::string& labels) {
 }
 
 }  // namespace
-
-double value_in(std::string_view bytes, const FieldKind& kind) {
-  switch (kind.character) {
-    case 'b':
-      return number_in<std::int8_t>(bytes);
-    case 'h':
-    case 'c':
-      return kind.scale * number_in<std::int16_t>(bytes);
-    case 'H':
-    case 'C':
-      return kind.scale * number_in<std::uint16_t>(bytes);
-    case 'i':
-    case 'e':
-    case 'L':
-      return kind.scale * number_in<std::int32_t>(bytes);
-    case 'I':
-    case 'E':
-      return kind.scale * number_in<std::uint32_t>(bytes);
-    case 'f':
-      return static_cast<double>(number_in<float>(bytes));
-    case 'd':
-      return number_in<double>(bytes);
-    case 'q':
-      return static_cast<double>(number_in<std::int64_t>(bytes));
-    case 'Q':
-      return static_cast<double>(number_in<std::uint64_t>(bytes));
-    default:
-      return number_in<std::uint8_t>(bytes);
-  }
-}
 
 std::string text_of(std::string_view bytes) {
   return std::string(bytes.substr(0, bytes.find('\0')));

@@ -21,7 +21,9 @@ inline constexpr std::size_t kRecordHeaderBytes = 3;
 struct FieldKind {
   char character;
   std::size_t bytes;
-  double scale;  ///< value = stored number times `scale`; 0: the field is not read
+  double scale;  ///< value = stored number times `scale`
+  /// Returns the stored number at the beginning of the bytes; null: the field is not read.
+  double (*read)(std::string_view bytes);
 };
 /// A named field of a record.
 struct Field {
@@ -44,9 +46,6 @@ struct Format {
 
 /// Formats, by the record type (third byte of the record header).
 using Formats = std::map<std::uint8_t, Format>;
-
-/// Returns the scaled number of this kind at the beginning of the bytes.
-double value_in(std::string_view bytes, const FieldKind& kind);
 
 /// Text in a field of fixed size, up to its first NUL.
 std::string text_of(std::string_view bytes);

@@ -108,7 +108,7 @@ bool has_its_fields(const Cells& cells, const dataflash::Format& format) {
   const std::size_t values = cells.size() - 1;
   if (values == format.fields.size()) return true;
   return values > format.fields.size() && !format.fields.empty() &&
-         format.fields.back().kind->scale == 0.0;
+         format.fields.back().kind->read == nullptr;
 }
 
 /// Returns the format of a line if it is known and the line is complete.
@@ -193,7 +193,7 @@ std::map<TextTopic, ListedText> list_text_topics(const TextContents& contents, c
     ListedText entry{.topic = signals.topics.size(), .fields = {}};
     for (std::size_t i = 0; i < format.fields.size(); ++i) {
       const dataflash::Field& field = format.fields[i];
-      if (i == *format.time || i == format.instance || field.kind->scale == 0.0) continue;
+      if (i == *format.time || i == format.instance || field.kind->read == nullptr) continue;
       const std::string& name = signals.header.emplace_back(topic.name + "." + field.name);
       if (!wanted(name)) continue;
       topic.columns.push_back(signals.header.size() - 1);

@@ -50,7 +50,7 @@ Status subscribe(ByteReader message, std::size_t offset, Reading& reading) {
   Subscription subscription{.needed = layout->needed, .topic = reading.signals.topics.size()};
   Topic& added = reading.signals.topics.emplace_back(Topic{.name = topic});
   for (ulog::Leaf& leaf : layout->leaves) {
-    if (leaf.name == "timestamp" && leaf.type == ulog::Basic::kU64)
+    if (leaf.name == "timestamp" && leaf.type->name == "uint64_t")
       subscription.time_offset = leaf.offset;
   }
   if (subscription.time_offset) {
@@ -98,7 +98,7 @@ Status take_data(std::string_view message, std::size_t offset, Reading& reading)
   topic.time_ns.push_back(static_cast<std::int64_t>(time_us) * 1000);
   for (std::size_t i = 0; i < subscription.wanted.size(); ++i) {
     const ulog::Leaf& leaf = subscription.wanted[i];
-    topic.values[i].push_back(ulog::value_in(fields.substr(leaf.offset), leaf.type));
+    topic.values[i].push_back(leaf.type->read(fields.substr(leaf.offset)));
   }
   return {};
 }

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <optional>
 #include <utility>
 
-#include "awmr/core/name_table.h"
 #include "awmr/core/text.h"
 #include "byte_reader.h"
 
@@ -17,36 +17,18 @@ namespace {
 
 constexpr int kDeepest = 8;  ///< maximum nesting of types
 
-constexpr NameTable<Basic, 12> kBasicNames{{{"int8_t", Basic::kI8},
-                                            {"uint8_t", Basic::kU8},
-                                            {"int16_t", Basic::kI16},
-                                            {"uint16_t", Basic::kU16},
-                                            {"int32_t", Basic::kI32},
-                                            {"uint32_t", Basic::kU32},
-                                            {"int64_t", Basic::kI64},
-                                            {"uint64_t", Basic::kU64},
-                                            {"float", Basic::kFloat},
-                                            {"double", Basic::kDouble},
-                                            {"bool", Basic::kBool},
-                                            {"char", Basic::kChar}}};
-
-std::size_t size_of(Basic type) {
-  switch (type) {
-    case Basic::kI16:
-    case Basic::kU16:
-      return 2;
-    case Basic::kI32:
-    case Basic::kU32:
-    case Basic::kFloat:
-      return 4;
-    case Basic::kI64:
-    case Basic::kU64:
-    case Basic::kDouble:
-      return 8;
-    default:
-      return 1;
-  }
+template <class T>
+constexpr Basic basic(std::string_view name) {
+  return {name, sizeof(T), read_number<T>};
 }
+
+constexpr std::array<Basic, 12> kBasics{
+    basic<std::int8_t>("int8_t"),   basic<std::uint8_t>("uint8_t"),
+    basic<std::int16_t>("int16_t"), basic<std::uint16_t>("uint16_t"),
+    basic<std::int32_t>("int32_t"), basic<std::uint32_t>("uint32_t"),
+    basic<std::int64_t>("int64_t"), basic<std::uint64_t>("uint64_t"),
+    basic<float>("float"),          basic<double>("double"),
+    basic<std::uint8_t>("bool"),    basic<std::uint8_t>("char")};
 
 std::optional<Field> field_of(std::string_view text) {
   const std::size_t space = text.find(' ');
@@ -75,18 +57,18 @@ tl::expected<void, std::string> lay_out(std::string_view format, const std::stri
                                       depth > kDeepest ? "nested too deep" : "an unknown type"));
   }
   for (const Field& field : found->second) {
-    const auto basic = value_in(kBasicNames, std::string_view(field.type));
+    const auto* type = std::ranges::find(kBasics, field.type, &Basic::name);
     const bool is_padding = field.name.starts_with("_padding");
     for (std::size_t i = 0; i < field.count; ++i) {
       const std::string name =
           prefix + field.name + (field.is_array ? fmt::format("[{}]", i) : std::string());
-      if (!basic) {
+      if (type == kBasics.end()) {
         auto inner = lay_out(field.type, name + ".", depth + 1, formats, layout);
         if (!inner) return inner;
       } else {
-        const bool is_number = *basic != Basic::kChar && !is_padding;
-        if (is_number) layout.leaves.push_back({name, *basic, layout.bytes});
-        layout.bytes += size_of(*basic);
+        const bool is_number = type->name != "char" && !is_padding;
+        if (is_number) layout.leaves.push_back({name, type, layout.bytes});
+        layout.bytes += type->bytes;
         if (!is_padding) layout.needed = layout.bytes;
       }
       if (layout.bytes > kLongestMessage) {
@@ -99,31 +81,6 @@ tl::expected<void, std::string> lay_out(std::string_view format, const std::stri
 }
 
 }  // namespace
-
-double value_in(std::string_view bytes, Basic type) {
-  switch (type) {
-    case Basic::kI8:
-      return number_in<std::int8_t>(bytes);
-    case Basic::kI16:
-      return number_in<std::int16_t>(bytes);
-    case Basic::kU16:
-      return number_in<std::uint16_t>(bytes);
-    case Basic::kI32:
-      return number_in<std::int32_t>(bytes);
-    case Basic::kU32:
-      return number_in<std::uint32_t>(bytes);
-    case Basic::kI64:
-      return static_cast<double>(number_in<std::int64_t>(bytes));
-    case Basic::kU64:
-      return static_cast<double>(number_in<std::uint64_t>(bytes));
-    case Basic::kFloat:
-      return static_cast<double>(number_in<float>(bytes));
-    case Basic::kDouble:
-      return number_in<double>(bytes);
-    default:
-      return number_in<std::uint8_t>(bytes);
-  }
-}
 
 std::string shown(std::string_view text) { return printable(shortened(text, 60)); }
 

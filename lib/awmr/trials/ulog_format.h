@@ -14,8 +14,12 @@ namespace awmr::ulog {
 
 inline constexpr std::size_t kLongestMessage = 65535;  ///< bytes; the file format has a 16-bit size
 
-/// Basic types.
-enum class Basic { kI8, kU8, kI16, kU16, kI32, kU32, kI64, kU64, kFloat, kDouble, kBool, kChar };
+/// Basic type of a field.
+struct Basic {
+  std::string_view name;  ///< "uint64_t"
+  std::size_t bytes;
+  double (*read)(std::string_view bytes);  ///< returns the number at the beginning of the bytes
+};
 /// A field such as `float[3] vel`.
 struct Field {
   std::string type;
@@ -28,7 +32,7 @@ using Formats = std::map<std::string, std::vector<Field>, std::less<>>;
 /// A number in a message, possibly within nested types.
 struct Leaf {
   std::string name;  ///< name of the signal without its topic: "position[2]", "pose.x"
-  Basic type = Basic::kU8;
+  const Basic* type = nullptr;
   std::size_t offset = 0;
 };
 
@@ -38,9 +42,6 @@ struct Layout {
   std::size_t bytes = 0;   ///< size of all fields, bytes
   std::size_t needed = 0;  ///< bytes without the padding at the end, which is not logged
 };
-
-/// Returns the number of this type at the beginning of the bytes.
-double value_in(std::string_view bytes, Basic type);
 
 /// Sanitises a name from a file for a message.
 std::string shown(std::string_view text);
