@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "awmr/core/text.h"
@@ -78,8 +79,8 @@ using TopicKey = std::pair<std::uint8_t, std::uint8_t>;
 /// Formats and topics of the file, which must be known before its values are read.
 struct Contents {
   dataflash::Formats formats = {};
-  std::map<TopicKey, std::size_t> topics = {};  ///< number of records by topic
-  std::size_t skipped = 0;                      ///< bytes that belong to no record
+  std::set<TopicKey> topics = {};
+  std::size_t skipped = 0;  ///< bytes that belong to no record
 };
 
 Result<Contents> contents_of(std::string_view bytes, const std::string& file) {
@@ -111,52 +112,21 @@ Result<Contents> contents_of(std::string_view bytes, const std::string& file) {
   const auto count = [&](std::uint8_t type, std::string_view record, std::size_t) -> Status {
     if (type == kFormatType) return {};
     const dataflash::Format& format = formats.at(type);
-    if (format.time) ++contents.topics[{type, instance_in(format, record)}];
+    if (format.time) contents.topics.emplace(type, instance_in(format, record));
     return {};
   };
   AWMR_RETURN_IF_ERROR(for_each_record(bytes, formats, count));
   return contents;
 }
 
-struct Listed {
-  std::size_t topic = 0;  ///< index in Signals::topics
-  /// Requested fields, in the order of Topic::columns.
-  std::vector<const dataflash::Field*> wanted;
-};
-
-std::map<TopicKey, Listed> list_topics(const Contents& contents, const Wanted& wanted,
-                                       Signals& signals) {
-  std::map<TopicKey, Listed> listed;
-  for (const auto& [key, records] : contents.topics) {
-    const dataflash::Format& format = contents.formats.at(key.first);
-    Topic topic{.name = format.name};
-    if (key.second != 0) topic.name += fmt::format("[{}]", key.second);
-    Listed entry{.topic = signals.topics.size(), .wanted = {}};
-    for (std::size_t i = 0; i < format.fields.size(); ++i) {
-      const dataflash::Field& field = format.fields[i];
-      if (i == *format.time || i == format.instance || field.kind->read == nullptr) continue;
-      const std::string& name = signals.header.emplace_back(topic.name + "." + field.name);
-      if (!wanted(name)) continue;
-      topic.columns.push_back(signals.header.size() - 1);
-      topic.values.emplace_back();
-      entry.wanted.push_back(&field);
-    }
-    signals.topics.push_back(std::move(topic));
-    listed.emplace(key, std::move(entry));
-  }
-  return listed;
-}
-
 /// Time of a record, ns; empty if invalid.
 std::optional<std::int64_t> time_of(const dataflash::Format& format, std::string_view record) {
   const dataflash::Field& field = format.fields[*format.time];
-  const double unit_ns = field.name == "TimeUS" ? 1e3 : 1e6;
   if (field.kind->character != 'Q' && field.kind->character != 'I') return std::nullopt;
   const std::uint64_t ticks = field.kind->character == 'Q'
                                   ? number_in<std::uint64_t>(record.substr(field.offset))
                                   : number_in<std::uint32_t>(record.substr(field.offset));
-  if (static_cast<double>(ticks) * unit_ns > 9e18) return std::nullopt;
-  return static_cast<std::int64_t>(ticks) * static_cast<std::int64_t>(unit_ns);
+  return dataflash::nanoseconds(format, ticks);
 }
 
 }  // namespace
@@ -170,18 +140,17 @@ Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
                                const Wanted& wanted) {
   AWMR_ASSIGN_OR_RETURN(const Contents contents, contents_of(bytes, file));
   Signals signals;
-  const std::map<TopicKey, Listed> listed = list_topics(contents, wanted, signals);
-  if (signals.header.size() > kMaxSignals) {
-    return input_error(ErrorCode::kTooLarge, file,
-                       fmt::format("there are more than {} signals, the most that awmr reads; "
-                                   "export fewer signals",
-                                   kMaxSignals));
+  std::map<TopicKey, dataflash::ListedTopic> listed;
+  for (const TopicKey& key : contents.topics) {
+    const auto& [type, sensor] = key;
+    listed.emplace(key, dataflash::list_topic(contents.formats.at(type), sensor, wanted, signals));
   }
+  AWMR_RETURN_IF_ERROR(dataflash::check_count(signals, file));
   const auto take = [&](std::uint8_t type, std::string_view record, std::size_t offset) -> Status {
     if (type == kFormatType) return {};
     const dataflash::Format& format = contents.formats.at(type);
     const auto entry = listed.find({type, instance_in(format, record)});
-    if (entry == listed.end() || entry->second.wanted.empty()) return {};
+    if (entry == listed.end() || entry->second.fields.empty()) return {};
     const auto time_ns = time_of(format, record);
     if (!time_ns) {
       return input_error(ErrorCode::kBrokenFile, file,
@@ -190,8 +159,8 @@ Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
     }
     Topic& topic = signals.topics[entry->second.topic];
     topic.time_ns.push_back(*time_ns);
-    for (std::size_t i = 0; i < entry->second.wanted.size(); ++i) {
-      const dataflash::Field& field = *entry->second.wanted[i];
+    for (std::size_t i = 0; i < entry->second.fields.size(); ++i) {
+      const dataflash::Field& field = format.fields[entry->second.fields[i]];
       topic.values[i].push_back(field.kind->scale * field.kind->read(record.substr(field.offset)));
     }
     return {};

@@ -1,5 +1,6 @@
-/// Parses the format definitions (FMT records) of an ArduPilot DataFlash log. Private to this
-/// folder. [ArduPilot, libraries/AP_Logger/LogStructure.h]
+/// Parses the format definitions (FMT records) of an ArduPilot DataFlash log, and lists the signals
+/// of its topics. Used for the binary form and the text form. Private to this folder.
+///                                               [ArduPilot, libraries/AP_Logger/LogStructure.h]
 #pragma once
 
 #include <cstddef>
@@ -11,6 +12,8 @@
 #include <vector>
 
 #include <tl/expected.hpp>
+
+#include "signals.h"
 
 namespace awmr::dataflash {
 
@@ -54,5 +57,26 @@ std::string text_of(std::string_view bytes);
 /// labels[64]. Errors: `labels` and `format` have different numbers of fields; an unknown format
 /// character; a length that is not that of the fields.
 tl::expected<Format, std::string> format_of(std::string_view bytes);
+
+/// The parts of the text between its commas; one empty part for an empty text.
+std::vector<std::string_view> split_at_commas(std::string_view text);
+
+/// Converts the value of the time field to ns; empty if it is too large.
+std::optional<std::int64_t> nanoseconds(const Format& format, std::uint64_t ticks);
+
+/// A topic in Signals: the records of one type and one sensor.
+struct ListedTopic {
+  std::size_t topic = 0;  ///< index in Signals::topics
+  /// Requested fields, as indices in Format::fields, in the order of Topic::columns.
+  std::vector<std::size_t> fields = {};
+};
+
+/// Adds a topic and the names of its signals to `signals`: `NAME.FIELD`, or `NAME[2].FIELD` for
+/// sensor 2. Precondition: the format has a time.
+ListedTopic list_topic(const Format& format, std::uint8_t sensor, const Wanted& wanted,
+                       Signals& signals);
+
+/// Checks that there are at most kMaxSignals signals. Error (input): there are more.
+Status check_count(const Signals& signals, const std::string& file);
 
 }  // namespace awmr::dataflash

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -30,12 +31,8 @@ std::string_view without_blanks(std::string_view text) {
 }
 
 Cells cells_of(std::string_view line) {
-  Cells cells;
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find(',', at), line.size());
-    cells.push_back(without_blanks(line.substr(at, end - at)));
-    at = end + 1;
-  }
+  Cells cells = dataflash::split_at_commas(line);
+  for (std::string_view& cell : cells) cell = without_blanks(cell);
   return cells;
 }
 
@@ -151,7 +148,7 @@ std::optional<TextTopic> topic_of_line(const Cells& cells, const dataflash::Form
 
 struct TextContents {
   NamedFormats formats = {};
-  std::map<TextTopic, std::size_t> topics = {};  ///< number of records by topic
+  std::set<TextTopic> topics = {};
   std::size_t lines = 0, skipped = 0;
 };
 
@@ -170,54 +167,20 @@ Result<TextContents> text_contents(std::string_view bytes, const std::string& fi
     if (!topic) {
       ++contents.skipped;
     } else if (format->time) {
-      ++contents.topics[*topic];
+      contents.topics.insert(*topic);
     }
     return {};
   }));
   return contents;
 }
 
-struct ListedText {
-  std::size_t topic = 0;  ///< index in Signals::topics
-  /// Requested fields, as indices in Format::fields, in the order of Topic::columns.
-  std::vector<std::size_t> fields;
-};
-
-std::map<TextTopic, ListedText> list_text_topics(const TextContents& contents, const Wanted& wanted,
-                                                 Signals& signals) {
-  std::map<TextTopic, ListedText> listed;
-  for (const auto& [key, records] : contents.topics) {
-    const dataflash::Format& format = contents.formats.find(key.first)->second;
-    Topic topic{.name = format.name};
-    if (key.second != 0) topic.name += fmt::format("[{}]", key.second);
-    ListedText entry{.topic = signals.topics.size(), .fields = {}};
-    for (std::size_t i = 0; i < format.fields.size(); ++i) {
-      const dataflash::Field& field = format.fields[i];
-      if (i == *format.time || i == format.instance || field.kind->read == nullptr) continue;
-      const std::string& name = signals.header.emplace_back(topic.name + "." + field.name);
-      if (!wanted(name)) continue;
-      topic.columns.push_back(signals.header.size() - 1);
-      topic.values.emplace_back();
-      entry.fields.push_back(i);
-    }
-    signals.topics.push_back(std::move(topic));
-    listed.emplace(key, std::move(entry));
-  }
-  return listed;
-}
-
 std::optional<std::int64_t> time_of_line(const Cells& cells, const dataflash::Format& format) {
-  const bool in_us = format.fields[*format.time].name == "TimeUS";
-  const std::int64_t unit_ns = in_us ? 1'000 : 1'000'000;
   const auto ticks = number_of<std::uint64_t>(cells[1 + *format.time]);
-  if (!ticks || static_cast<double>(*ticks) * static_cast<double>(unit_ns) > 9e18) {
-    return std::nullopt;
-  }
-  return static_cast<std::int64_t>(*ticks) * unit_ns;
+  return ticks ? dataflash::nanoseconds(format, *ticks) : std::nullopt;
 }
 
 Status take_line(const Cells& cells, int line, const std::string& file,
-                 const dataflash::Format& format, const ListedText& listed, Topic& topic) {
+                 const dataflash::Format& format, const dataflash::ListedTopic& listed, Topic& topic) {
   const auto time_ns = time_of_line(cells, format);
   if (!time_ns) {
     return error_at(file, line,
@@ -256,13 +219,12 @@ Result<Signals> read_dataflash_text(std::string_view bytes, const std::string& f
     ++contents.skipped;
   }
   Signals signals;
-  const std::map<TextTopic, ListedText> listed = list_text_topics(contents, wanted, signals);
-  if (signals.header.size() > kMaxSignals) {
-    return input_error(ErrorCode::kTooLarge, file,
-                       fmt::format("there are more than {} signals, the most that awmr reads; "
-                                   "export fewer signals",
-                                   kMaxSignals));
+  std::map<TextTopic, dataflash::ListedTopic> listed;
+  for (const TextTopic& key : contents.topics) {
+    const dataflash::Format& format = contents.formats.find(key.first)->second;
+    listed.emplace(key, dataflash::list_topic(format, key.second, wanted, signals));
   }
+  AWMR_RETURN_IF_ERROR(dataflash::check_count(signals, file));
   AWMR_RETURN_IF_ERROR(for_each_line(whole, [&](const Cells& cells, int line) -> Status {
     if (cells.front() == "FMT") return {};
     const dataflash::Format* format = format_of_line(cells, contents.formats);
