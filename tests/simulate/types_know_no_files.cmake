@@ -6,8 +6,8 @@ foreach(source
     simulate/scenario.h simulate/world.h simulate/simulate.h simulate/metrics.h
     simulate/scenario.cpp simulate/passage.cpp simulate/disturbance.cpp simulate/sensing.cpp
     simulate/physics.cpp simulate/run_columns.cpp simulate/scenario_guidance.cpp simulate/simulate.cpp simulate/metrics.cpp
-    trials/trials.h trials/log.h trials/trial_data.h trials/steady.h trials/replay.h trials/prediction.h
-    trials/steady.cpp trials/replay.cpp trials/prediction.cpp identify/options.h identify/identify.h
+    trials/trials.h trials/log.h trials/trial_data.h trials/steady.h trials/replay.h
+    trials/steady.cpp trials/replay.cpp identify/options.h identify/identify.h
     tune/tune.h tune/tune.cpp compare/compare.h compare/compare.cpp)
   execute_process(COMMAND ${COMPILER} -std=c++20 -I${LIB} -x c++ -M ${LIB}/awmr/${source}
     OUTPUT_VARIABLE included RESULT_VARIABLE result)

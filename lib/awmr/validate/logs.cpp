@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "awmr/core/drawn_rows.h"
+#include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
+#include "awmr/model/sliding.h"
 #include "awmr/trials/replay.h"
 
 namespace awmr {
@@ -51,9 +56,99 @@ Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   return part;
 }
 
-/// Limits of a predicted series: readings of a channel, and points kept for the chart.
+/// Maximum number of measurements of a channel for which the prediction is kept; of more
+/// measurements, every n-th.
 constexpr std::size_t kMaxInSeries = 100000;
+/// Maximum number of points in the chart of a channel.
 constexpr std::size_t kMaxDrawn = 1000;
+
+/// Sums over all measurements y of one channel.
+struct LogSums {
+  double one_step = 0.0;      ///< sum of squared errors of the one-step prediction
+  double long_horizon = 0.0;  ///< sum of squared errors of the long-horizon prediction
+  double measured = 0.0;      ///< sum of y
+  double squares = 0.0;       ///< sum of y^2
+  int count = 0;
+  PredictedSeries series = {};
+};
+using ChannelSums = std::array<LogSums, kChannelCount>;
+
+struct LogPredictor {
+  LogSignals signals;
+  Plant<double> plant;
+  double step_s;
+  std::optional<LaggedForces> lagged;
+  std::size_t series_step;  ///< n: every n-th measurement is kept in the series
+};
+
+LogPredictor log_predictor(const DrivingLog& log, const Plant<double>& plant, double motor_lag_s) {
+  const double step_s = replay_step_s(plant);
+  std::optional<LaggedForces> lagged;
+  if (motor_lag_s > 0.0) lagged.emplace(log, 0, log.rows(), motor_lag_s);
+  return {LogSignals(log), resolved_beside_friction(plant, step_s), step_s, std::move(lagged),
+          log.rows() / kMaxInSeries + 1};
+}
+
+template <class Visit>
+void predict(const LogPredictor& model, std::size_t begin, std::size_t end,
+             const State<double>& initial, Visit visit) {
+  replay<double>(model.signals, begin, end, model.plant, nullptr, model.step_s, initial, visit,
+                 model.lagged ? &*model.lagged : nullptr);
+}
+
+/// Predicts the next row from the measurements in `row`, and adds the squared errors to `sums`.
+/// Components without a measurement in `row` come from `state`, the long-horizon prediction for
+/// that row.
+void add_one_step(const LogPredictor& model, std::size_t row, State<double> state,
+                  ChannelSums& sums) {
+  const DrivingLog& log = *model.signals.log;
+  each_measurement(log, row, [&](LogChannel channel, double measured) {
+    channel_of(state, channel) = measured;
+  });
+  predict(model, row, row + 2, state, [&](std::size_t reached, const State<double>& next) {
+    if (reached == row) return;
+    each_measurement(log, reached, [&](LogChannel channel, double measured) {
+      const double error = channel_of(next, channel) - measured;
+      sums[at(channel)].one_step += error * error;
+    });
+  });
+}
+
+/// Adds the errors of a prediction over the window from its measured initial state, and those of
+/// the one-step predictions within it.
+void add_window(const LogPredictor& model, const LogWindow& window, ChannelSums& sums) {
+  predict(model, window.begin, window.end, measured_initial_state(window),
+          [&](std::size_t row, const State<double>& state) {
+            each_measurement(*window.log, row, [&](LogChannel channel, double measured) {
+              LogSums& s = sums[at(channel)];
+              const double predicted = channel_of(state, channel);
+              if (static_cast<std::size_t>(s.count) % model.series_step == 0) {
+                s.series.t_s.push_back(window.log->t_s[row]);
+                s.series.measured.push_back(measured);
+                s.series.predicted.push_back(predicted);
+              }
+              const double error = predicted - measured;
+              s.long_horizon += error * error;
+              s.measured += measured;
+              s.squares += measured * measured;
+              ++s.count;
+            });
+            if (row + 1 < window.end) add_one_step(model, row, state, sums);
+          });
+}
+
+/// Sum of squares about the mean: sum y^2 - n (mean y)^2.
+double about_mean(const LogSums& sums) {
+  const double n = sums.count;
+  const double mean = sums.measured / n;
+  return sums.squares - n * mean * mean;
+}
+
+PredictionError error_of(double squared_errors, const LogSums& sums) {
+  const double n = sums.count;
+  return {std::sqrt(squared_errors / about_mean(sums)), 1.0 - squared_errors / about_mean(sums),
+          std::sqrt(squared_errors / n)};
+}
 
 PredictedSeries drawn(const PredictedSeries& all) {
   const std::vector<std::vector<double>> signals{all.measured, all.predicted};
@@ -87,17 +182,20 @@ LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, do
                            double tolerance, double motor_lag_s) {
   const double duration_s = log.t_s.back() - log.t_s.front();
   LogValidation validation{log.file, std::min(horizon_s, duration_s), {}, true};
-  const PredictionOptions options{
-      .horizon_s = horizon_s, .motor_lag_s = motor_lag_s, .most_in_series = kMaxInSeries};
-  for (const ChannelPrediction& prediction : predict_log(log, plant, options)) {
-    ChannelValidation entry{std::string(info(prediction.channel).name),
-                            std::string(info(prediction.channel).unit),
-                            prediction.samples,
-                            prediction.one_step,
-                            prediction.long_horizon,
-                            drawn(prediction.series)};
-    validation.passed = validation.passed && entry.long_horizon.nrmse <= tolerance;
-    validation.channels.push_back(std::move(entry));
+  const LogPredictor model = log_predictor(log, plant, motor_lag_s);
+  ChannelSums sums{};
+  for (const LogWindow& window : windows_of(log, horizon_s)) add_window(model, window, sums);
+  for (const LogChannel channel : kChannels) {
+    const LogSums& s = sums[at(channel)];
+    if (s.count < 2 || !(about_mean(s) > 0.0)) continue;
+    validation.channels.push_back({.channel = std::string(info(channel).name),
+                                   .unit = std::string(info(channel).unit),
+                                   .samples = s.count,
+                                   .one_step = error_of(s.one_step, s),
+                                   .long_horizon = error_of(s.long_horizon, s),
+                                   .series = drawn(s.series)});
+    validation.passed =
+        validation.passed && validation.channels.back().long_horizon.nrmse <= tolerance;
   }
   validation.passed = validation.passed && !validation.channels.empty();
   return validation;

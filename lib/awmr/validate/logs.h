@@ -7,9 +7,23 @@
 
 #include "awmr/core/result.h"
 #include "awmr/model/model.h"
-#include "awmr/trials/prediction.h"
+#include "awmr/trials/log.h"
 
 namespace awmr {
+
+/// Prediction error of one channel.
+struct PredictionError {
+  double nrmse = 0.0;  ///< rmse divided by the standard deviation of the measurements
+  double r2 = 0.0;     ///< 1 - sum of squared errors / sum of squares about the mean
+  double rmse = 0.0;   ///< root mean square error, SI
+};
+
+/// Measurements of a channel over time, and their predictions.
+struct PredictedSeries {
+  std::vector<double> t_s = {};        ///< times of the measurements, rising
+  std::vector<double> measured = {};   ///< SI
+  std::vector<double> predicted = {};  ///< SI
+};
 
 /// Prediction errors of one channel of a log.
 struct ChannelValidation {
