@@ -3,22 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "awmr/compare/decision.h"
 #include "awmr/compare/scoring.h"
 #include "awmr/core/binomial.h"
+#include "awmr/core/text.h"
 
 namespace awmr {
 namespace {
-
-/// Joins names to a list in a sentence: "a, b and c".
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  }
-  return text;
-}
 
 /// Finds the metric in which `other` is furthest behind `best`, measured in multiples of the
 /// metric's relevance margin. Only metrics with a weight are considered. Null if no difference is
@@ -115,7 +108,7 @@ std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided
   std::vector<std::string> first{best.contender.label()};
   first.insert(first.end(), best.tied_with.begin(), best.tied_with.end());
   if (first.size() == 1) return first.front() + (is_undecided ? " is ahead here" : " is best");
-  return fmt::format("{} are tied{}: {}", joined(first),
+  return fmt::format("{} are tied{}: {}", enumerated(first, std::identity(), " and "),
                      first.size() < ranking.size() ? " for best" : "",
                      tie_text(ranking, preferences));
 }

@@ -36,6 +36,18 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
 /// spaces, and a line break.
 std::string paragraph(const std::string& text, std::size_t indent);
 
+/// Joins the words of the items for a sentence, with `last` before the last word: "a, b or c" for
+/// " or ".
+template <class Items, class WordOf>
+std::string enumerated(const Items& items, const WordOf& word_of, std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) text += i + 1 == items.size() ? last : ", ";
+    text += word_of(items[i]);
+  }
+  return text;
+}
+
 /// Default length limit of shortened(), bytes.
 inline constexpr std::size_t kLongestShown = 1000;
 

@@ -152,16 +152,6 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
                    found->scatter};
 }
 
-/// For each row: the integral of the yaw rate from the first row to this one, rad.
-std::vector<double> integrated_rate(const DrivingLog& log) {
-  const std::vector<double>& rate = log[LogChannel::kYawRate]->value;
-  std::vector<double> psi(log.rows(), 0.0);
-  for (std::size_t i = 1; i < log.rows(); ++i) {
-    psi[i] = psi[i - 1] + 0.5 * (rate[i - 1] + rate[i]) * (log.t_s[i] - log.t_s[i - 1]);
-  }
-  return psi;
-}
-
 /// Ratio s of the position's scale to the speed's scale, for a log without heading
 /// (calibration_checks.h).
 std::optional<Calibration> distance_scale(const DrivingLog& log) {
@@ -222,9 +212,8 @@ std::optional<Calibration> course_over_heading(const DrivingLog& log) {
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed}) {
     if (!log[channel]) return std::nullopt;
   }
-  if (!log[LogChannel::kHeading] && !log[LogChannel::kYawRate]) return std::nullopt;
-  const std::vector<double> psi =
-      log[LogChannel::kHeading] ? log[LogChannel::kHeading]->value : integrated_rate(log);
+  const std::vector<double> psi = headings_of(log);
+  if (psi.empty()) return std::nullopt;
   const std::vector<LogWindow> windows = calibration_windows(log, kWindows);
   std::vector<CourseWindow> sums;
   double longest_m = 0.0;
@@ -260,11 +249,6 @@ bool is_off_one(const Calibration& scale) {
 
 Finding scale_finding(const DrivingLog& log, std::string message) {
   return {log.file, 0, Severity::kWarning, "scale-mismatch", std::move(message)};
-}
-
-std::string mapping_option(std::span<const ColumnMapping> mappings, std::string_view column,
-                           double factor) {
-  return option_text("column '" + scaled_mapping(mappings, column, factor) + "'");
 }
 
 /// Decides whether the scale of the yaw rate or of the heading is wrong. The channel that agrees

@@ -194,12 +194,6 @@ void find_spikes(std::span<const double> all, ChannelQuality& quality) {
 /// Values up to this fraction of the signal's largest magnitude count as 0: the vehicle is at rest.
 constexpr double kRestShare = 1e-6;
 
-double largest_size(std::span<const double> values) {
-  double most = 0.0;
-  for (const double value : values) most = std::max(most, std::abs(value));
-  return most;
-}
-
 std::vector<RowSpan> equal_runs(std::span<const double> value) {
   std::vector<RowSpan> runs;
   for (std::size_t i = 0; i < value.size();) {
@@ -332,6 +326,12 @@ void find_saturation(std::span<const double> all, std::span<const double> activi
 }
 
 }  // namespace
+
+double largest_size(std::span<const double> values) {
+  double most = 0.0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
 
 double resolution_of_changes(std::span<const double> readings) {
   constexpr std::size_t kFewest = 30;

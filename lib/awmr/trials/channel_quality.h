@@ -45,6 +45,9 @@ ChannelQuality find_repeats(std::span<const double> value);
 /// a changed value.
 double resolution_of_changes(std::span<const double> readings);
 
+/// The largest magnitude of the values; 0 if there are none.
+double largest_size(std::span<const double> values);
+
 /// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the
 /// signal, by row, in any unit. A signal that is constant while `activity` changes is stuck.
 ///

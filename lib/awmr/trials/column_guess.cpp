@@ -18,6 +18,7 @@
 #include "awmr/core/units.h"
 #include "awmr/trials/column_words.h"
 #include "awmr/trials/trial_columns.h"
+#include "channel_quality.h"
 #include "constant_channels.h"
 
 namespace awmr {
@@ -51,12 +52,6 @@ bool is_si_by_convention(const Words& words) {
   return ros || (has_any(words, {"imu"}) && has_any(words, {"gyr"}));
 }
 
-double largest(const std::vector<double>& values) {
-  double most = 0.0;
-  for (const double value : values) most = std::max(most, std::abs(value));
-  return most;
-}
-
 /// Assumed angle of the steering stop and voltage of full power, for guesses that need them. The
 /// reason of such a guess states the value, so that the user can check it.
 constexpr double kUsualStop_deg = 20.0;
@@ -72,7 +67,7 @@ bool looks_like_pulses(const std::vector<double>& values) {
 
 Scale force_scale(const std::string& quoted, const Words& words,
                   const std::vector<double>& values) {
-  const double most = largest(values);
+  const double most = largest_size(values);
   if (has_any(words, {"volts", "volt", "voltage"})) {
     return {fmt::format("{}/{:g}", quoted, kUsualVolts), Confidence::kUnsure,
             fmt::format("volts divided by the voltage of full power, assumed to be {:g} V",
@@ -114,11 +109,11 @@ Scale scale_of(const std::string& quoted, const Words& words, Dimension dimensio
                         "2000 are the steering stops, assumed to be at {:g} deg",
                         kUsualStop_deg)};
   }
-  if (dimension == Dimension::kAngle && largest(values) > 2.0 * pi<double>()) {
+  if (dimension == Dimension::kAngle && largest_size(values) > 2.0 * pi<double>()) {
     return {quoted, Confidence::kLikely,
             fmt::format("the values reach {:.4g}, more than a full turn in radians, so they are "
                         "degrees",
-                        largest(values))};
+                        largest_size(values))};
   }
   return {times(quoted, 1.0), Confidence::kUnsure,
           "the name has no unit, and the values fit several units"};

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "awmr/core/text.h"
 #include "awmr/model/plausibility.h"
 
 namespace awmr {
@@ -41,10 +42,6 @@ constexpr ForceUnit kUnknownForce{
 constexpr Interval kVoltRange{2.0, 60.0};
 constexpr Interval kAcceleration_mps2{0.1, 30.0};
 
-double limit_of(const Vehicle& vehicle) {
-  return std::max(vehicle.wheel_force.hi, -vehicle.wheel_force.lo);
-}
-
 bool is_end_of_scale(double largest, double end) {
   return std::abs(largest / end - 1.0) <= kEndOfScale;
 }
@@ -79,6 +76,10 @@ void add_unit(std::vector<ForceUnit>& units, const ForceUnit& unit) {
 
 }  // namespace
 
+double largest_wheel_force(const Vehicle& vehicle) {
+  return std::max(vehicle.wheel_force.hi, -vehicle.wheel_force.lo);
+}
+
 bool is_share_of_f_max(const ForceSpan& span) { return span.largest <= 1.0 + kEndOfScale; }
 
 ForceSpan joined(const ForceSpan& a, const ForceSpan& b) {
@@ -86,7 +87,7 @@ ForceSpan joined(const ForceSpan& a, const ForceSpan& b) {
 }
 
 ForceUnits force_units(const ForceSpan& span, const Vehicle& vehicle) {
-  const double limit = limit_of(vehicle);
+  const double limit = largest_wheel_force(vehicle);
   if (is_share_of_f_max(span)) {
     return {{{"fractions of the vehicle's largest force", vehicle.wheel_force.hi}},
             fmt::format("raise wheel_force in vehicle.json to {:.4g} if the motors were driven "
@@ -110,12 +111,8 @@ ForceUnits force_units(const ForceSpan& span, const Vehicle& vehicle) {
 
 std::string words_of(const ForceUnits& units) {
   if (!units.remedy.empty()) return "F' can be up to 1";
-  std::string text = "the forces look like ";
-  for (std::size_t i = 0; i < units.units.size(); ++i) {
-    const bool is_last = i + 1 == units.units.size();
-    text += fmt::format("{}{}", i == 0 ? "" : is_last ? " or " : ", ", units.units[i].words);
-  }
-  return text;
+  const auto words = [](const ForceUnit& unit) { return unit.words; };
+  return "the forces look like " + enumerated(units.units, words, " or ");
 }
 
 std::vector<UnitFix> force_unit_fixes(const ForceUnits& units, std::string_view column) {

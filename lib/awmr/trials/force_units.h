@@ -30,6 +30,9 @@ namespace awmr {
 /// excess may be due to rounding.
 inline constexpr double kForceRounding = 1.01;
 
+/// F'max: the largest magnitude of the force of one wheel, of either sign.
+double largest_wheel_force(const Vehicle& vehicle);
+
 /// Range of the pulse lengths of a servo or a motor driver, us.
 inline constexpr Interval kPulse_us{900.0, 2200.0};
 

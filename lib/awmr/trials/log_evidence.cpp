@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "awmr/core/option_text.h"
 #include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "rest_limits.h"
@@ -38,20 +39,6 @@ void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow
     sums.tau_steering_m += vehicle.front_axle_m * both * std::sin(steering[i]) / n;
     sums.tau_diff_m += vehicle.half_track_m * apart * (std::cos(steering[i]) + 1.0) / n;
   }
-}
-
-/// Heading of each row, rad; without a heading channel the integral of the yaw rate, from 0. Empty
-/// if both channels are missing.
-std::vector<double> headings_of(const DrivingLog& log) {
-  if (const auto& heading = log[LogChannel::kHeading]) return heading->value;
-  const auto& rate = log[LogChannel::kYawRate];
-  if (!rate) return {};
-  std::vector<double> headings(log.rows(), 0.0);
-  for (std::size_t i = 1; i < log.rows(); ++i) {
-    headings[i] = headings[i - 1] +
-                  0.5 * (rate->value[i - 1] + rate->value[i]) * (log.t_s[i] - log.t_s[i - 1]);
-  }
-  return headings;
 }
 
 EvidenceWindow sums_of(const DrivingLog& log, const Vehicle& vehicle,
@@ -142,6 +129,20 @@ double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& w
   return sum;
 }
 
+std::vector<double> integrated_rate(const DrivingLog& log) {
+  const std::vector<double>& rate = log[LogChannel::kYawRate]->value;
+  std::vector<double> psi(log.rows(), 0.0);
+  for (std::size_t i = 1; i < log.rows(); ++i) {
+    psi[i] = psi[i - 1] + 0.5 * (rate[i - 1] + rate[i]) * (log.t_s[i] - log.t_s[i - 1]);
+  }
+  return psi;
+}
+
+std::vector<double> headings_of(const DrivingLog& log) {
+  if (const auto& heading = log[LogChannel::kHeading]) return heading->value;
+  return log[LogChannel::kYawRate] ? integrated_rate(log) : std::vector<double>();
+}
+
 std::vector<LogWindow> evidence_rows(const DrivingLog& log, double length_s) {
   return between_readings(windows_of(log, length_s));
 }
@@ -161,7 +162,7 @@ Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
   return evidence;
 }
 
-std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<const double> y) {
+std::optional<double> robust_ratio(std::span<const double> x, std::span<const double> y) {
   constexpr int kMinPairs = 10;
   constexpr double kLargestSpread = 0.6;
   // Skips pairs (x, y) with a smaller |x|, because the vehicle is then at rest.
@@ -178,7 +179,7 @@ std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<con
   const double ratio = median(ratios);
   const double spread = median_absolute_deviation(ratios, ratio) / std::abs(ratio);
   if (!std::isfinite(spread) || spread > kLargestSpread) return std::nullopt;
-  return RobustRatio{ratio, spread, static_cast<int>(ratios.size())};
+  return ratio;
 }
 
 namespace {
@@ -264,6 +265,11 @@ std::string scaled_mapping(std::span<const ColumnMapping> mappings, std::string_
 std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor,
                            double offset) {
   return scaled_mapping(evidence.mappings, column, factor, offset);
+}
+
+std::string mapping_option(std::span<const ColumnMapping> mappings, std::string_view column,
+                           double factor, double offset) {
+  return option_text("column '" + scaled_mapping(mappings, column, factor, offset) + "'");
 }
 
 std::array<std::string, 2> swapped_mappings(const Evidence& evidence) {

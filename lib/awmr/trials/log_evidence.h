@@ -60,6 +60,13 @@ std::vector<LogWindow> evidence_rows(const DrivingLog& log, double length_s);
 /// The integral of a channel over a window (trapezoidal rule).
 double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& window);
 
+/// By row: the integral of the yaw rate from the first row on, rad. Precondition: the log has a yaw
+/// rate.
+std::vector<double> integrated_rate(const DrivingLog& log);
+/// Heading of each row, rad; without a heading, integrated_rate(). Empty without heading and yaw
+/// rate.
+std::vector<double> headings_of(const DrivingLog& log);
+
 template <class Member>
 std::vector<double> series(const std::vector<EvidenceWindow>& windows, Member member) {
   std::vector<double> values;
@@ -68,18 +75,10 @@ std::vector<double> series(const std::vector<EvidenceWindow>& windows, Member me
   return values;
 }
 
-/// Ratio y/x of two signals, computed from medians so that about 10 % outliers do no harm.
-struct RobustRatio {
-  double ratio = 0.0;
-  /// Median absolute deviation of the ratios y/x from `ratio`, divided by |ratio|.
-  double spread = 0.0;
-  int pairs = 0;  ///< number of pairs used
-};
-
-/// Returns the median of y/x over the half of the pairs (x, y) with the larger |x|. Empty if this
-/// half has fewer than 10 pairs. Empty also if `spread` would exceed 0.6, because the two signals
-/// are then not proportional.
-std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<const double> y);
+/// Ratio y/x of two signals that are proportional: the median of y/x over the half of the pairs
+/// (x, y) with the larger |x|, so that about 10 % outliers do no harm. Empty if this half has fewer
+/// than 10 pairs, or if the median absolute deviation of y/x from the median exceeds 60 % of it.
+std::optional<double> robust_ratio(std::span<const double> x, std::span<const double> y);
 
 /// Coefficients of a linear regression of the yaw rate on the yaw moments tau_steering (of the
 /// steering) and tau_diff (of the force difference), as in EvidenceWindow:
@@ -103,7 +102,16 @@ std::string scaled_mapping(std::span<const ColumnMapping> mappings, std::string_
                            double factor, double offset = 0.0);
 std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor,
                            double offset = 0.0);
+/// The option `--column` with this mapping, for messages.
+std::string mapping_option(std::span<const ColumnMapping> mappings, std::string_view column,
+                           double factor, double offset = 0.0);
 std::array<std::string, 2> swapped_mappings(const Evidence& evidence);
+
+/// A unit that a column may have by mistake.
+struct UnitFactor {
+  double factor;  ///< ratio of the two compared quantities if the column has this unit
+  std::string_view words;
+};
 
 /// Detects a log in which the vehicle never moves, so that its channels cannot be compared.
 std::optional<Contradiction> rest_contradiction(const Evidence& evidence);

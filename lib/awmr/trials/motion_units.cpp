@@ -17,12 +17,6 @@ namespace {
 /// slip or noise; any other ratio means a wrong unit.
 bool agree(double ratio) { return ratio >= 0.6 && ratio <= 1.6; }
 
-/// A unit that a channel may have by mistake.
-struct UnitFactor {
-  double factor;  ///< ratio of the two compared channels if the channel has this unit
-  std::string_view words;
-};
-
 /// The unit whose factor is nearest to `ratio`; empty if none is within 20 %.
 template <std::size_t N>
 std::optional<UnitFactor> known_factor(double ratio, const std::array<UnitFactor, N>& factors) {
@@ -88,12 +82,12 @@ std::optional<double> turned_over_rate(const Evidence& evidence) {
       series(evidence.overlapping, [](const EvidenceWindow& w) { return w.turned_rad; });
   const auto ratio = robust_ratio(rate, turned);
   if (!ratio) return std::nullopt;
-  const double size = std::abs(ratio->ratio);
+  const double size = std::abs(*ratio);
   if (agree(size)) return std::nullopt;
   // A large gyro bias changes the ratio of the signals, but not the ratio of their deviations from
   // the medians.
   const auto without_bias = robust_ratio(centred(rate), centred(turned));
-  if (without_bias && agree(without_bias->ratio)) return std::nullopt;
+  if (without_bias && agree(*without_bias)) return std::nullopt;
   return size;
 }
 
@@ -149,7 +143,7 @@ std::optional<double> rate_over_rolling(const Evidence& evidence) {
   }
   const auto ratio = robust_ratio(rolling, rate);
   if (!ratio) return std::nullopt;
-  return std::abs(ratio->ratio);
+  return std::abs(*ratio);
 }
 
 /// Detects a yaw rate in deg/s in logs without a heading. Its values are too large for any wheeled
@@ -227,7 +221,7 @@ double position_variance_m2(const DrivingLog& log) {
 /// deviation sigma of each coordinate, the expected square is true distance^2 + 4 sigma^2. The
 /// function therefore subtracts 4 sigma^2 from the square. Empty if the median distance in the
 /// faster half of the windows is below twice the distance that noise alone would give.
-std::optional<RobustRatio> moved_over_driven(const Evidence& evidence) {
+std::optional<double> moved_over_driven(const Evidence& evidence) {
   // Smallest accepted ratio of the median squared distance to that of noise alone.
   constexpr double kClear = 4.0;
   const double noise_m2 = 4.0 * position_variance_m2(evidence.log);
@@ -254,7 +248,7 @@ std::optional<Contradiction> check_speed(const Evidence& evidence) {
   if (!position || !evidence.has(LogChannel::kSpeed)) return std::nullopt;
   const auto ratio = moved_over_driven(evidence);
   if (!ratio) return std::nullopt;
-  if (agree(ratio->ratio)) return std::nullopt;
+  if (agree(*ratio)) return std::nullopt;
   static constexpr std::array<UnitFactor, 6> kSpeedUnits{{{1.0 / 3.6, "km/h"},
                                                           {0.44704, "miles per hour"},
                                                           {0.01, "cm/s"},
@@ -264,8 +258,8 @@ std::optional<Contradiction> check_speed(const Evidence& evidence) {
   static constexpr std::array<UnitFactor, 4> kPositionUnits{
       {{1e3, "mm"}, {100.0, "cm"}, {1.0 / 0.0254, "inches"}, {1.0 / 0.3048, "feet"}}};
   const std::string compared =
-      fmt::format("the positions move by {:.4g} times the integral of the speed", ratio->ratio);
-  if (const auto unit = known_factor(ratio->ratio, kPositionUnits)) {
+      fmt::format("the positions move by {:.4g} times the integral of the speed", *ratio);
+  if (const auto unit = known_factor(*ratio, kPositionUnits)) {
     const std::string x = scaled_mapping(evidence, "x_m", 1.0 / unit->factor);
     const std::string y = scaled_mapping(evidence, "y_m", 1.0 / unit->factor);
     return Contradiction{
@@ -273,14 +267,14 @@ std::optional<Contradiction> check_speed(const Evidence& evidence) {
         fmt::format("map them with {} and {}", option_text(fmt::format("column '{}'", x)),
                     option_text(fmt::format("column '{}'", y)))};
   }
-  if (const auto unit = known_factor(ratio->ratio, kSpeedUnits)) {
+  if (const auto unit = known_factor(*ratio, kSpeedUnits)) {
     return Contradiction{"speed_mps",
                          compared + fmt::format(": the speed looks like {}", unit->words),
                          scaled_mapping(evidence, "speed_mps", unit->factor)};
   }
   return Contradiction{
       "speed_mps",
-      compared + ", which no known unit explains" + words_of_wheel(ratio->ratio, evidence.vehicle),
+      compared + ", which no known unit explains" + words_of_wheel(*ratio, evidence.vehicle),
       "",
       "compare the units of speed_mps, x_m, y_m and t_s with the sensors' data "
       "sheets"};
@@ -304,8 +298,8 @@ std::optional<Contradiction> check_speed_alone(const Evidence& evidence) {
       "",
       fmt::format("map cm/s with {}, mm/s with {}, rpm with the factor 2 pi RADIUS_M/(60 "
                   "GEAR_RATIO)",
-                  option_text("column '" + scaled_mapping(evidence, "speed_mps", 0.01) + "'"),
-                  option_text("column '" + scaled_mapping(evidence, "speed_mps", 1e-3) + "'"))};
+                  mapping_option(evidence.mappings, "speed_mps", 0.01),
+                  mapping_option(evidence.mappings, "speed_mps", 1e-3))};
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ std::vector<SignRelation> sign_relations(const Evidence& evidence) {
   if (evidence.has(LogChannel::kYawRate)) {
     const auto ratio =
         robust_ratio(series(evidence.overlapping, rate), series(evidence.overlapping, turn));
-    if (ratio) add(Signed::kYawRate, Signed::kHeading, ratio->ratio > 0.0 ? 1 : -1);
+    if (ratio) add(Signed::kYawRate, Signed::kHeading, *ratio > 0.0 ? 1 : -1);
   }
   if (has_position) {
     add(Signed::kHeading, Signed::kY, course_relation(evidence.overlapping).sign);
@@ -237,7 +237,7 @@ std::optional<Contradiction> check_direction(const Evidence& evidence) {
   const auto ratio = robust_ratio(
       series(evidence.overlapping, [](const EvidenceWindow& w) { return w.thrust; }),
       series(evidence.overlapping, [](const EvidenceWindow& w) { return w.driven_m; }));
-  if (!ratio || ratio->ratio > 0.0) return std::nullopt;
+  if (!ratio || *ratio > 0.0) return std::nullopt;
   return Contradiction{"speed_mps",
                        "the speed and the sum of both forces have opposite signs: speed or forces "
                        "have the wrong sign (forward is positive)",

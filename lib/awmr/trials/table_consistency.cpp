@@ -74,10 +74,6 @@ ForceSpan side_forces(const TurningRow& row) {
 ForceSpan steered_force(const TurningRow& row) { return {row.wheel_force, row.wheel_force}; }
 ForceSpan thrust(const SurgeRow& row) { return {row.tau_speed, row.tau_speed}; }
 
-double side_limit(const Vehicle& vehicle) {
-  return std::max(vehicle.wheel_force.hi, -vehicle.wheel_force.lo);
-}
-
 /// Wheel forces that are not F' (force over F_max), from all tables of a vehicle. They decide the
 /// unit of each force column whose values cannot be F'.
 struct FolderForces {
@@ -106,7 +102,7 @@ FolderForces folder_forces(const Tables& tables) {
   if (tables.turning) {
     for (const auto* rows :
          {&tables.turning->rows, &tables.turning->by_sides, &tables.turning->standing}) {
-      add(beyond(*rows, side_forces, side_limit(tables.vehicle)), 1);
+      add(beyond(*rows, side_forces, largest_wheel_force(tables.vehicle)), 1);
       add(beyond(*rows, steered_force, tables.vehicle.wheel_force.hi), 1);
     }
   }
@@ -118,7 +114,7 @@ std::string limits_text(const Interval& force) {
 }
 
 void check_sides(const Table& table, const std::vector<TurningRow>& rows, const Tables& tables) {
-  const auto [first, span] = beyond(rows, side_forces, side_limit(tables.vehicle));
+  const auto [first, span] = beyond(rows, side_forces, largest_wheel_force(tables.vehicle));
   if (first == nullptr) return;
   const ForceUnits units = force_units(folder_forces(tables).with(span), tables.vehicle);
   for (const char* column : {"force_left", "force_right"}) {

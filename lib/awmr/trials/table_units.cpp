@@ -19,14 +19,8 @@
 namespace awmr {
 namespace {
 
-struct TableUnit {
-  double times;             ///< ratio of printed to timed value if the column has this unit
-  std::string_view column;  ///< column to correct
-  double factor;            ///< corrected value = value in the file times this
-  std::string_view words;
-};
-
-constexpr std::array<TableUnit, 7> kTableSpeedUnits{
+/// Units by the ratio of the printed value to the one computed from distance or turns and time.
+constexpr std::array<ColumnUnit, 7> kTableSpeedUnits{
     {{3.6, "speed_mps", 1.0 / 3.6, "the speed looks like km/h"},
      {2.23694, "speed_mps", 0.44704, "the speed looks like miles per hour"},
      {100.0, "speed_mps", 1e-2, "the speed looks like cm/s"},
@@ -34,7 +28,7 @@ constexpr std::array<TableUnit, 7> kTableSpeedUnits{
      {1000.0, "elapsed_s", 1e-3, "the time looks like milliseconds"},
      {1e-2, "distance_m", 1e-2, "the distance looks like cm"},
      {1e-3, "distance_m", 1e-3, "the distance looks like mm"}}};
-constexpr std::array<TableUnit, 2> kTableTurnUnits{
+constexpr std::array<ColumnUnit, 2> kTableTurnUnits{
     {{57.29578, "yaw_rate_radps", 1.0 / 57.29578, "the yaw rate looks like degrees per second"},
      {1000.0, "elapsed_s", 1e-3, "the time looks like milliseconds"}}};
 
@@ -47,8 +41,8 @@ constexpr Interval kMeanDeceleration_mps2{0.01, 20.0};
 /// unit whose `times` differs from every ratio by less than 10 %. Null without such a unit, or with
 /// fewer than two ratios.
 template <std::size_t N>
-const TableUnit* unit_of(const std::vector<double>& ratios, const std::array<TableUnit, N>& units) {
-  for (const TableUnit& unit : units) {
+const ColumnUnit* unit_of(const std::vector<double>& ratios, const std::array<ColumnUnit, N>& units) {
+  for (const ColumnUnit& unit : units) {
     const bool all = std::all_of(ratios.begin(), ratios.end(), [&](double ratio) {
       return std::abs(ratio / unit.times - 1.0) < 0.1;
     });
@@ -83,22 +77,14 @@ double fastest(const std::vector<Row>& rows, double Row::*rate) {
   return most;
 }
 
-std::vector<double> printed_over_timed(const std::vector<SurgeRow>& rows) {
+/// Ratios of the printed rate to the timed one, unit * amount/elapsed_s, of the rows that have both.
+template <class Row>
+std::vector<double> printed_over_timed(const std::vector<Row>& rows, double Row::*printed,
+                                       std::optional<double> Row::*amount, double unit) {
   std::vector<double> ratios;
-  for (const SurgeRow& row : rows) {
-    if (row.distance_m && row.elapsed_s) {
-      ratios.push_back(row.speed_mps * *row.elapsed_s / *row.distance_m);
-    }
-  }
-  return ratios;
-}
-
-std::vector<double> printed_over_timed(const std::vector<TurningRow>& rows) {
-  std::vector<double> ratios;
-  for (const TurningRow& row : rows) {
-    if (row.turns && row.elapsed_s) {
-      ratios.push_back(row.yaw_rate_radps * *row.elapsed_s / (2.0 * pi<double>() * *row.turns));
-    }
+  for (const Row& row : rows) {
+    if (!(row.*amount) || !row.elapsed_s) continue;
+    ratios.push_back(row.*printed * *row.elapsed_s / (unit * *(row.*amount)));
   }
   return ratios;
 }
@@ -149,10 +135,10 @@ std::string lengths_text(double speed_mps, const Vehicle& vehicle) {
 std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehicle& vehicle) {
   if (surge.rows.empty()) return std::nullopt;
   const SurgeRow& first = surge.rows.front();
-  const std::vector<double> ratios = printed_over_timed(surge.rows);
+  const std::vector<double> ratios = printed_over_timed(surge.rows, &SurgeRow::speed_mps, &SurgeRow::distance_m, 1.0);
   const double speed_mps = fastest(surge.rows, &SurgeRow::speed_mps);
   const double lengths = speed_mps / vehicle.length_m;
-  if (const TableUnit* unit = unit_of(ratios, kTableSpeedUnits)) {
+  if (const ColumnUnit* unit = unit_of(ratios, kTableSpeedUnits)) {
     // A speed in mm/s and a time in milliseconds both give the ratio 1000. If the printed speed is
     // usual for the vehicle's length, the time is wrong.
     const bool is_time = unit->times == 1000.0 && lengths <= kUsualLengthsPerSecond;
@@ -181,8 +167,9 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehic
 std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning) {
   if (turning.rows.empty()) return std::nullopt;
   const TurningRow& first = turning.rows.front();
-  const std::vector<double> ratios = printed_over_timed(turning.rows);
-  if (const TableUnit* unit = unit_of(ratios, kTableTurnUnits)) {
+  const std::vector<double> ratios = printed_over_timed(
+      turning.rows, &TurningRow::yaw_rate_radps, &TurningRow::turns, 2.0 * pi<double>());
+  if (const ColumnUnit* unit = unit_of(ratios, kTableTurnUnits)) {
     return wrong(first.line,
                  fmt::format("yaw_rate_radps is {:.3g} times 2 pi turns/elapsed_s: {}",
                              median(ratios), unit->words),

@@ -12,6 +12,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "awmr/model/vehicle.h"
@@ -19,6 +20,14 @@
 #include "unit_fix.h"
 
 namespace awmr {
+
+/// A unit that a column of a table may have by mistake.
+struct ColumnUnit {
+  double times;             ///< the checked rate is too large by this factor with this unit
+  std::string_view column;  ///< column to correct
+  double factor;            ///< corrected value = value in the file times this
+  std::string_view words;
+};
 
 struct WrongUnit {
   int line = 0;                     ///< line of the first affected row

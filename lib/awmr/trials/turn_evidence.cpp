@@ -36,20 +36,14 @@ constexpr double kFastestTurn_radps = 25.0;
 constexpr Interval kPossibleShare{0.03, 2.5};
 constexpr double kPossibleAcceleration_mps2 = 15.0;
 
-struct RateUnit {
-  double times;             ///< values are too large by this factor if the file has this unit
-  std::string_view column;  ///< column to correct
-  double factor;            ///< corrected value = value in the file times this
-  std::string_view words;
-};
-constexpr std::array<RateUnit, 4> kPrintedUnits{
+constexpr std::array<ColumnUnit, 4> kPrintedUnits{
     {{57.29578, "yaw_rate_radps", 1.0 / 57.29578, "degrees per second"},
      {9.549297, "yaw_rate_radps", 1.0 / 9.549297, "turns per minute"},
      {57295.78, "yaw_rate_radps", 1.0 / 57295.78, "thousandths of a degree per second"},
      {1.0 / 57.29578, "yaw_rate_radps", 57.29578,
       "radians per second that were multiplied by pi/180 "
       "by mistake"}}};
-constexpr std::array<RateUnit, 4> kTimedUnits{
+constexpr std::array<ColumnUnit, 4> kTimedUnits{
     {{360.0, "turns", 1.0 / 360.0, "turns in degrees"},
      {60.0, "elapsed_s", 60.0, "a time in minutes"},
      {6.283185, "turns", 1.0 / 6.283185, "turns in radians"},
@@ -229,7 +223,7 @@ std::vector<TurnCriterion> criteria_of(const TrialSet<TurningRow>& turning,
 std::vector<UnitFix> turn_unit_fixes(double share, const Interval& possible, bool is_printed) {
   const bool is_fast = share > possible.hi;
   std::vector<UnitFix> found;
-  for (const RateUnit& unit : is_printed ? std::span(kPrintedUnits) : std::span(kTimedUnits)) {
+  for (const ColumnUnit& unit : is_printed ? std::span(kPrintedUnits) : std::span(kTimedUnits)) {
     if ((unit.times > 1.0) != is_fast || !possible.contains(share / unit.times)) continue;
     found.push_back({std::string(unit.words), unit.column, unit.factor});
   }

@@ -15,14 +15,8 @@
 namespace awmr {
 namespace {
 
-/// A unit that t_s may have by mistake.
-struct TimeUnit {
-  double factor;  ///< ratio of the row spacing to the sample time if t_s has this unit
-  std::string_view words;
-};
-
 /// Builds the contradiction which states that t_s is probably in `unit`, not in seconds.
-Contradiction time_in(const TimeUnit& unit, const Evidence& evidence) {
+Contradiction time_in(const UnitFactor& unit, const Evidence& evidence) {
   const double step_s = evidence.log.median_step_s();
   const double sample_time_s = evidence.vehicle.sample_time_s;
   return {"t_s",
@@ -33,11 +27,11 @@ Contradiction time_in(const TimeUnit& unit, const Evidence& evidence) {
 }
 
 std::optional<Contradiction> check_time(const Evidence& evidence) {
-  static constexpr std::array<TimeUnit, 3> kFactors{
+  static constexpr std::array<UnitFactor, 3> kFactors{
       {{1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}}};
   const double step_s = evidence.log.median_step_s();
   const double ratio = step_s / evidence.vehicle.sample_time_s;
-  for (const TimeUnit& unit : kFactors) {
+  for (const UnitFactor& unit : kFactors) {
     if (ratio < 0.3 * unit.factor || ratio > 30.0 * unit.factor) continue;
     return time_in(unit, evidence);
   }
@@ -46,12 +40,12 @@ std::optional<Contradiction> check_time(const Evidence& evidence) {
   constexpr double kFastest_s = 1e-3;
   constexpr double kOften = 0.05;
   if (step_s >= kFastest_s || ratio >= kOften) return std::nullopt;
-  static constexpr std::array<TimeUnit, 4> kLong{{{1.0 / 60.0, "minutes"},
+  static constexpr std::array<UnitFactor, 4> kLong{{{1.0 / 60.0, "minutes"},
                                                   {1e-3, "thousands of seconds"},
                                                   {1.0 / 3600.0, "hours"},
                                                   {1.0 / 86400.0, "days"}}};
-  const TimeUnit& nearest = *std::ranges::min_element(
-      kLong, {}, [&](const TimeUnit& one) { return std::abs(std::log(ratio / one.factor)); });
+  const UnitFactor& nearest = *std::ranges::min_element(
+      kLong, {}, [&](const UnitFactor& one) { return std::abs(std::log(ratio / one.factor)); });
   return time_in(nearest, evidence);
 }
 
@@ -68,7 +62,7 @@ std::optional<Contradiction> check_force(const Evidence& evidence, std::string_v
       "reaches {:.4g}, beyond wheel_force [{:g}, {:g}] of the "
       "vehicle: ",
       worst, limit.lo, limit.hi);
-  if (of_both.largest <= std::max(limit.hi, -limit.lo) * kForceRounding) {
+  if (of_both.largest <= largest_wheel_force(evidence.vehicle) * kForceRounding) {
     // The vehicle allows this magnitude in the opposite direction, so only the sign is wrong, not
     // the unit.
     return Contradiction{
@@ -134,7 +128,7 @@ std::optional<double> sharpness(const Evidence& evidence, double factor) {
   }
   const auto ratio = robust_ratio(pointed, turned);
   if (!ratio) return std::nullopt;
-  return std::abs(ratio->ratio);
+  return std::abs(*ratio);
 }
 
 double largest_steering_deg(const DrivingLog& log) {
