@@ -346,6 +346,24 @@ std::optional<Calibration> heading_offset_rad(const DrivingLog& log) {
   return course ? offset_of(*course) : std::nullopt;
 }
 
+std::optional<Calibration> gyro_bias_radps(const DrivingLog& log) {
+  if (!log[LogChannel::kHeading] || !log[LogChannel::kYawRate]) return std::nullopt;
+  std::vector<double> offsets;
+  for (const LogWindow& window : windows_of(log, kEvidenceWindow_s)) {
+    const std::vector<double>& heading = log[LogChannel::kHeading]->value;
+    const double span_s = log.t_s[window.end - 1] - log.t_s[window.begin];
+    const double turned = heading[window.end - 1] - heading[window.begin];
+    offsets.push_back((integral_of(log, LogChannel::kYawRate, window) - turned) / span_s);
+  }
+  if (offsets.size() < 10) return std::nullopt;
+  const double bias = median(offsets);
+  // The standard error of a median is sqrt(pi/2) = 1.2533 times that of a mean.
+  const double error = 1.2533 * kStdPerMad * median_absolute_deviation(offsets, bias) /
+                       std::sqrt(static_cast<double>(offsets.size()));
+  if (!(std::abs(bias) > kSignificance * error)) return std::nullopt;
+  return Calibration{bias, error};
+}
+
 std::vector<Finding> calibration_findings(const DrivingLog& log,
                                           std::span<const ColumnMapping> mappings) {
   std::vector<Finding> findings;

@@ -52,7 +52,8 @@
 
 namespace awmr {
 
-/// Estimate of a scale ratio (dimensionless) or of an angle (rad), with its standard error.
+/// Estimate of a scale ratio (dimensionless), of an angle (rad) or of an angular rate (rad/s), with
+/// its standard error.
 struct Calibration {
   double value = 0.0;
   double std_error = 0.0;
@@ -62,6 +63,11 @@ struct Calibration {
 /// is below 1 deg or below five standard errors. Empty also if x, y, the heading or the speed was
 /// not measured, or if the log has fewer than 15 windows.
 std::optional<Calibration> heading_offset_rad(const DrivingLog& log);
+
+/// Bias of the yaw rate: measured yaw rate minus rate of change of the heading, rad/s; the median
+/// over windows of one second. Empty if its magnitude is below five standard errors. Empty also if
+/// heading or yaw rate was not measured, or with fewer than 10 windows.
+std::optional<Calibration> gyro_bias_radps(const DrivingLog& log);
 
 /// Returns the warnings `heading-offset` (heading_offset_rad() is not empty) and `scale-mismatch`
 /// (the scales of two channels differ by more than 3 % and by more than five standard errors). If

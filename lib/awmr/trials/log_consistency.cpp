@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "awmr/core/option_text.h"
-#include "awmr/core/sample_quantile.h"
 #include "awmr/trials/calibration_checks.h"
 #include "awmr/trials/log_evidence.h"
 
@@ -25,33 +22,6 @@ std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& 
     if (auto jump = jump_contradiction(evidence)) found.push_back(*std::move(jump));
   }
   return found;
-}
-
-std::optional<GyroBias> gyro_bias(const DrivingLog& log) {
-  if (!log[LogChannel::kHeading] || !log[LogChannel::kYawRate]) return std::nullopt;
-  std::vector<double> offsets;
-  for (const LogWindow& window : windows_of(log, kEvidenceWindow_s)) {
-    const std::vector<double>& heading = log[LogChannel::kHeading]->value;
-    const double span_s = log.t_s[window.end - 1] - log.t_s[window.begin];
-    const double turned = heading[window.end - 1] - heading[window.begin];
-    offsets.push_back((integral_of(log, LogChannel::kYawRate, window) - turned) / span_s);
-  }
-  if (offsets.size() < 10) return std::nullopt;
-  const double bias = median(offsets);
-  // The standard error of a median is sqrt(pi/2) = 1.2533 times that of a mean.
-  const double error = 1.2533 * kStdPerMad * median_absolute_deviation(offsets, bias) /
-                       std::sqrt(static_cast<double>(offsets.size()));
-  return GyroBias{bias, error};
-}
-
-bool GyroBias::significant() const {
-  constexpr double kStandardErrors = 5.0;
-  return std::abs(bias_radps) > kStandardErrors * std_error_radps;
-}
-
-bool has_gyro_bias(const DrivingLog& log) {
-  const auto bias = gyro_bias(log);
-  return bias && bias->significant();
 }
 
 Status check_consistency(const DrivingLog& log, const std::string& place, const Vehicle& vehicle,
@@ -76,14 +46,13 @@ Status check_consistency(const DrivingLog& log, const std::string& place, const 
   for (Finding& finding : calibration_findings(log, options.columns)) {
     findings.push_back(std::move(finding));
   }
-  const auto bias = gyro_bias(log);
-  if (bias && bias->significant()) {
+  if (const auto bias = gyro_bias_radps(log)) {
     findings.push_back(
         {log.file, 0, Severity::kWarning, "gyro-bias",
          fmt::format("yaw_rate_radps differs by {:.3g} +- {:.2g} rad/s from the rate of change of "
                      "the heading: the gyroscope has a bias. The fit estimates this bias, as with "
                      "{}; to avoid it, let the gyroscope settle at rest before a drive",
-                     bias->bias_radps, bias->std_error_radps,
+                     bias->value, bias->std_error,
                      option_text("fit bias.yaw_rate_radps"))});
   }
   return {};

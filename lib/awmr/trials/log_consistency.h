@@ -20,7 +20,6 @@
 /// the vehicle never moves is refused.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,20 +49,8 @@ std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& 
 /// Checks a log by contradictions(). Errors (input): each contradiction, with the mapping that
 /// corrects it. If `options.as_is` is true, contradictions are no errors, but warnings
 /// (`log-contradiction`). `place` names the log in errors. For a log without contradictions, adds
-/// the findings of calibration_checks.h, and `gyro-bias` if gyro_bias() is significant.
+/// the findings of calibration_checks.h, and `gyro-bias` if gyro_bias_radps() is not empty.
 Status check_consistency(const DrivingLog& log, const std::string& place, const Vehicle& vehicle,
                          const TrialOptions& options, std::vector<Finding>& findings);
-
-/// Bias of the yaw rate: measured yaw rate minus rate of change of the heading.
-struct GyroBias {
-  double bias_radps = 0.0;
-  double std_error_radps = 0.0;
-  /// True if the bias exceeds five standard errors.
-  bool significant() const;
-};
-/// Estimates the bias by the median over windows of one second. Empty if heading or yaw rate was
-/// not measured, or with fewer than 10 windows.
-std::optional<GyroBias> gyro_bias(const DrivingLog& log);
-bool has_gyro_bias(const DrivingLog& log);
 
 }  // namespace awmr

@@ -89,7 +89,9 @@ std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
     const bool known = std::ranges::find(requested, channel) != requested.end();
     if (is_biased && !known) requested.push_back(channel);
   };
-  add(LogChannel::kYawRate, std::ranges::any_of(logs, has_gyro_bias));
+  add(LogChannel::kYawRate, std::ranges::any_of(logs, [](const DrivingLog& log) {
+        return gyro_bias_radps(log).has_value();
+      }));
   add(LogChannel::kHeading, std::ranges::any_of(logs, [](const DrivingLog& log) {
         return heading_offset_rad(log).has_value();
       }));
