@@ -5,12 +5,10 @@
 #include <cstdint>
 
 #include "awmr/core/csv_cell.h"
+#include "awmr/core/text.h"
 
 namespace awmr {
 namespace {
-
-/// True for the first byte of a UTF-8 character. The further bytes of a character are 10xxxxxx.
-bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
 
 constexpr std::array<double, 20> kPowersOfTen{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,
                                               1e7,  1e8,  1e9,  1e10, 1e11, 1e12, 1e13,
@@ -49,7 +47,7 @@ std::size_t parse_plain_number(std::string_view text, std::optional<double>& val
 
 /// Skips one byte, which is not a line end.
 inline void CsvScanner::step() {
-  character_ += begins_character(rest_.front()) ? 1 : 0;
+  character_ += continues_character(rest_.front()) ? 0 : 1;
   rest_.remove_prefix(1);
 }
 
@@ -127,7 +125,7 @@ CsvScanner::Outcome CsvScanner::cell(std::vector<CsvCell>& cells) {
   for (; length < rest_.size(); ++length) {
     const char c = rest_[length];
     if (c == delimiter_ || c == '\n' || c == '\r') break;
-    characters += begins_character(c) ? 1 : 0;
+    characters += continues_character(c) ? 0 : 1;
   }
   if (length > number_length) cell.number.reset();
   cell.text = trimmed(rest_.substr(0, length));

@@ -79,8 +79,6 @@ tl::unexpected<Error> input_errors(std::vector<Fault> faults) {
   return tl::unexpected(Error{ErrorKind::kInput, std::move(faults)});
 }
 
-std::string to_text(const Error& error) { return to_text(error, ""); }
-
 std::vector<Fault> shown_faults(const std::vector<Fault>& all) {
   const std::vector<Fault> faults = without_repeats(all);
   if (faults.size() <= kMaxFaultsShown) return faults;

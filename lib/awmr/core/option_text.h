@@ -35,7 +35,4 @@ std::vector<Fault> shown_faults(const std::vector<Fault>& faults);
 /// One printable line, `PLACE: MESSAGE [CODE]`. Option names are spelt as by spell_options().
 std::string to_text(const Fault& fault, std::string_view prefix);
 
-/// As to_text(error) in result.h. Option names are spelt as by spell_options().
-std::string to_text(const Error& error, std::string_view prefix);
-
 }  // namespace awmr

@@ -117,10 +117,6 @@ std::size_t thread_count(int threads) {
   return std::max(1U, std::thread::hardware_concurrency());
 }
 
-void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
-  parallel_for(count, threads, body, {});
-}
-
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body,
                   const LoopControl& control) {
   std::atomic<std::size_t> next = 0;

@@ -10,12 +10,6 @@ namespace awmr {
 /// 1.
 std::size_t thread_count(int threads);
 
-/// Calls body(i) for i = 0 ... count - 1 on up to `threads` threads (0: one per core), including
-/// the caller's. If body(i) writes only to data of item i, the result does not depend on the number
-/// of threads. After an exception, no further item is started. When all started items have ended,
-/// the exception of the smallest i is rethrown.
-void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body);
-
 /// Cancellation and progress callbacks of a long loop.
 struct LoopControl {
   /// Called before each item, on the thread that would process the item. Several threads may call
@@ -24,8 +18,12 @@ struct LoopControl {
   /// Called after each item that the caller's thread has processed, on that thread.
   std::function<void()> progress = {};
 };
-/// As parallel_for() above, with cancellation and progress.
+
+/// Calls body(i) for i = 0 ... count - 1 on up to `threads` threads (0: one per core), including
+/// the caller's. If body(i) writes only to data of item i, the result does not depend on the number
+/// of threads. After an exception, no further item is started. When all started items have ended,
+/// the exception of the smallest i is rethrown.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body,
-                  const LoopControl& control);
+                  const LoopControl& control = {});
 
 }  // namespace awmr

@@ -17,6 +17,8 @@
 #include <mutex>
 #include <set>
 
+#include "awmr/core/descriptor.h"
+
 namespace awmr {
 namespace {
 
@@ -31,23 +33,6 @@ constexpr int kPoll_ms = 20;
 std::mutex running_mutex;
 std::set<pid_t> running;
 bool may_start = true;
-
-/// Both ends of a pipe, closed by the destructor.
-struct Pipe {
-  std::array<int, 2> ends{-1, -1};
-  bool open() { return ::pipe2(ends.data(), O_CLOEXEC) == 0; }
-  void close(std::size_t end) {
-    if (ends[end] >= 0) ::close(ends[end]);
-    ends[end] = -1;
-  }
-  Pipe() = default;
-  ~Pipe() {
-    close(0);
-    close(1);
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-};
 
 /// Settings of a new process: working directory, stdin, stdout and stderr; no other open files; no
 /// signal blocked or ignored; its own process group, so that it can be killed together with its
@@ -188,12 +173,15 @@ Result<ProgramEnd> run_program(const ProgramCall& call) {
                        fmt::format("cannot start this program in {}: {}", call.directory.string(),
                                    std::strerror(error)));
   };
-  Pipe pipe;
-  if (!pipe.open()) return failed(errno);
-  const pid_t process = start(call, pipe.ends[1]);
+  int ends[2] = {-1, -1};
+  if (::pipe2(ends, O_CLOEXEC) != 0) return failed(errno);
+  const Descriptor output(ends[0]);
+  const pid_t process = [&] {
+    const Descriptor input(ends[1]);  // closed here, so that the pipe ends when the program ends
+    return start(call, input.number());
+  }();
   if (process < 0) return failed(-process);
-  pipe.close(1);
-  return wait_for(process, pipe.ends[0], call.time_limit_s);
+  return wait_for(process, output.number(), call.time_limit_s);
 }
 
 void end_running_programs() {

@@ -51,8 +51,8 @@ tl::unexpected<Error> program_fault(std::string message);
 tl::unexpected<Error> input_errors(std::vector<Fault> faults);
 
 /// One line per fault: `error: PLACE: MESSAGE [CODE]`. Shortened as by shown_faults()
-/// (option_text.h).
-std::string to_text(const Error& error);
+/// (option_text.h). Option names are spelt as by spell_options() with `prefix`.
+std::string to_text(const Error& error, std::string_view prefix = "");
 
 /// Exit code of a program that ends with this error: that of its ErrorKind.
 int exit_code(const Error& error);
