@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "awmr/core/csv_text.h"
+#include "awmr/core/csv.h"
 #include "awmr/core/file.h"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <map>
 #include <sstream>
 
-#include "awmr/core/csv_text.h"
+#include "awmr/core/csv.h"
 #include "awmr/core/units.h"
 #include "awmr/model/steady.h"
 #include "emit/paper_robot.h"

@@ -2,7 +2,7 @@
 /// error.
 #include <cmath>
 
-#include "awmr/core/csv_text.h"
+#include "awmr/core/csv.h"
 #include "fuzz/target.h"
 
 using awmr::fuzz::require;

@@ -11,7 +11,6 @@
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/csv_header.h"
 #include "awmr/core/csv_scanner.h"
-#include "awmr/core/csv_text.h"
 #include "awmr/core/decimal_comma.h"
 #include "awmr/core/foreign_format.h"
 #include "awmr/core/input_file.h"

@@ -1,9 +1,9 @@
-#include "awmr/core/joined_rows.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
+
+#include "awmr/core/raw_table.h"
 
 namespace awmr {
 namespace {
@@ -81,14 +81,16 @@ void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources) {
            parts.lines.size(), rates_of(parts), before - parts.lines.size())});
 }
 
+bool is_void(const CsvTable::Column& column) {
+  const std::vector<bool>& present = column.present;
+  return !present.empty() && std::find(present.begin(), present.end(), true) == present.end();
+}
+
 void refuse_void_columns(const CsvTable::Parts& parts, const ColumnSources& sources,
                          std::vector<Fault>& faults) {
-  const auto is_void = [&](const ColumnSource& source) {
-    const std::vector<bool>& present = parts.columns.at(source.column.name).present;
-    return !present.empty() && std::find(present.begin(), present.end(), true) == present.end();
-  };
   for (const ColumnSource& source : sources.found) {
-    if (source.column.empty == EmptyCells::kOptional || !is_void(source)) continue;
+    if (source.column.empty == EmptyCells::kOptional) continue;
+    if (!is_void(parts.columns.at(source.column.name))) continue;
     faults.push_back(
         {ErrorCode::kMissing, fmt::format("{}:{}:1", parts.file, parts.header_line),
          fmt::format("the column {} has no value in any row; add values, or map another "

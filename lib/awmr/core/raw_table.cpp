@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "awmr/core/joined_rows.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/text.h"
 
@@ -232,10 +231,7 @@ void find_empty_cells(const ColumnSource& source, FaultList& faults) {
 void drop_void_columns(CsvTable::Parts& parts, const ColumnSources& sources) {
   for (const ColumnSource& source : sources.found) {
     if (source.column.empty != EmptyCells::kOptional) continue;
-    const std::vector<bool>& present = parts.columns.at(source.column.name).present;
-    const bool is_void =
-        !present.empty() && std::find(present.begin(), present.end(), true) == present.end();
-    if (is_void) parts.columns.erase(source.column.name);
+    if (is_void(parts.columns.at(source.column.name))) parts.columns.erase(source.column.name);
   }
 }
 

@@ -37,4 +37,18 @@ struct RawTable {
 Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
                           std::span<const ColumnMapping> mappings, std::vector<Fault> faults);
 
+/// For a log with signals of different rates: drops the rows that a fit cannot use. These are the
+/// rows in which every column that may have empty cells is empty (columns other than
+/// EmptyCells::kFault, csv.h), and all rows at the beginning of the log until each command (kHeld)
+/// has had its first value. Adds the note `joined-by-time` with the numbers of rows kept and
+/// dropped.
+void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources);
+
+/// True for a column that has no value in any row.
+bool is_void(const CsvTable::Column& column);
+/// Adds a fault for each requested column that is empty in all rows, except for columns that may be
+/// absent (EmptyCells::kOptional).
+void refuse_void_columns(const CsvTable::Parts& parts, const ColumnSources& sources,
+                         std::vector<Fault>& faults);
+
 }  // namespace awmr

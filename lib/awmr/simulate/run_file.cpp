@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "awmr/control/yaw_mode.h"
-#include "awmr/core/csv_text.h"
+#include "awmr/core/csv.h"
 #include "awmr/core/file.h"
 #include "awmr/core/hash.h"
 #include "awmr/core/json.h"

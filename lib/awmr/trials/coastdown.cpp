@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "agreement.h"
-#include "awmr/core/csv_text.h"
+#include "awmr/core/csv.h"
 #include "awmr/core/option_text.h"
 #include "read_table.h"
 #include "repeated_rows.h"

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "awmr/core/csv_text.h"
+#include "awmr/core/csv.h"
 #include "awmr/core/input_file.h"
 #include "awmr/core/time_column.h"
 #include "log_formats.h"

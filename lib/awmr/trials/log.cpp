@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "awmr/core/csv_text.h"
+#include "awmr/core/csv.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"

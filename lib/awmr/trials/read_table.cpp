@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "awmr/core/column_sources.h"
-#include "awmr/core/csv_text.h"
+#include "awmr/core/csv.h"
 #include "awmr/core/input_file.h"
 #include "awmr/core/raw_table.h"
 #include "awmr/core/time_column.h"

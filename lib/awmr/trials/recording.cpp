@@ -11,7 +11,7 @@
 #include "awmr/core/column_sources.h"
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/csv_scanner.h"
-#include "awmr/core/csv_text.h"
+#include "awmr/core/csv.h"
 #include "awmr/core/decimal_comma.h"
 #include "awmr/core/text.h"
 #include "awmr/trials/trial_columns.h"
@@ -50,15 +50,14 @@ std::vector<CsvCell> cells_of(std::string_view line, char delimiter) {
 }
 
 /// Parses a line as a header; empty if it does not name a column of a log.
-std::optional<Recording::Header> header_of(std::string_view line,
-                                           std::span<const ColumnMapping> mappings) {
+std::optional<CsvHead> header_of(std::string_view line, std::span<const ColumnMapping> mappings) {
   const std::span<const CsvColumn> columns = columns_of(TrialKind::kLog);
   auto head = csv_head(line, "", columns, mappings, 0);
   if (!head) return std::nullopt;
   const std::set<std::string> wanted = wanted_names(columns, mappings);
   const auto is_wanted = [&](const std::string& name) { return wanted.count(name) != 0; };
   if (std::none_of(head->names.begin(), head->names.end(), is_wanted)) return std::nullopt;
-  return Recording::Header{std::move(head->names), head->delimiter};
+  return *std::move(head);
 }
 
 }  // namespace
@@ -106,7 +105,7 @@ void Recording::take(const std::string& line) {
 /// Looks for the header in `line`. Returns true if the line itself is the header. A comment with
 /// column names becomes the header at the first row below it that has the same number of cells.
 bool Recording::find_header(const std::string& line) {
-  const std::optional<Header> header = header_of(without_marks(line), mappings_);
+  const std::optional<CsvHead> header = header_of(without_marks(line), mappings_);
   if (is_blank(line)) {
     if (header) commented_ = *header;
     return false;

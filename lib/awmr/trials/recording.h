@@ -30,11 +30,6 @@ inline constexpr std::size_t kMaxRecording = std::size_t{1} << 28U;
 /// A number that lost a digit cannot be detected.
 class Recording {
  public:
-  struct Header {
-    std::vector<std::string> names = {};
-    char delimiter = ',';
-  };
-
   /// `mappings`: column mappings with which the log will be read. A line that contains the names of
   /// their source columns is recognised as the header, as is a line with awmr's column names.
   /// `most_bytes`: maximum size of the text.
@@ -75,9 +70,9 @@ class Recording {
   /// True: the last byte was a carriage return; a line feed after it ends the same line.
   bool after_return_ = false;
   bool full_ = false;
-  Header header_ = {};
+  CsvHead header_ = {};
   /// Column names in the last comment; it becomes the header if rows with as many cells follow.
-  Header commented_ = {};
+  CsvHead commented_ = {};
   std::vector<bool> is_number_ = {};  ///< for each column: true if the first row has a number in it
   int lines_ = 0;                     ///< number of lines in text_
   std::size_t rows_ = 0;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "awmr/core/csv_text.h"
+#include "awmr/core/csv.h"
 #include "read_table.h"
 #include "repeated_rows.h"
 #include "rest_limits.h"

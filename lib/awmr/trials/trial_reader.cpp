@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "agreement.h"
-#include "awmr/core/csv_text.h"
+#include "awmr/core/csv.h"
 
 namespace awmr {
 

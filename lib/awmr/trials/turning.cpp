@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "awmr/core/csv_text.h"
+#include "awmr/core/csv.h"
 #include "awmr/core/units.h"
 #include "awmr/model/dynamics.h"
 #include "awmr/trials/trial_columns.h"
