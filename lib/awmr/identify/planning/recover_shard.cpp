@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 
+#include "awmr/core/hash.h"
 #include "awmr/core/name_table.h"
-#include "awmr/core/rounding.h"
 #include "awmr/core/shard_file.h"
 #include "awmr/identify/planning/recover_table.h"
 
@@ -19,6 +21,28 @@ namespace {
 constexpr long kMaxRecoverRuns = std::numeric_limits<int>::max();
 constexpr double kLargestTruth = 1e100;
 constexpr double kSmallestTruth = 1e-100;
+
+/// Hash (16 hexadecimal digits) of all bits of results of exp, log, pow and other functions on this
+/// machine. Two machines give byte-identical results only if their hashes are equal, because the C
+/// library has variants of these functions for different processors that round differently.
+std::string rounding_of_functions() {
+  std::string bits;
+  const auto note = [&bits](double value) {
+    bits += fmt::format("{:x} ", std::bit_cast<std::uint64_t>(value));
+  };
+  // Two variants of a function in the C library differ in the last bit for about one argument in a
+  // thousand. So 4000 arguments suffice to detect a difference.
+  constexpr int kArguments = 4000;
+  for (int i = 1; i <= kArguments; ++i) {
+    const double x = 0.00271828 * i;
+    for (const double value : {std::exp(x), std::log(x), std::pow(x, 0.8841), std::sin(x),
+                               std::cos(x), std::tan(x), std::atan(x)}) {
+      note(value);
+    }
+  }
+  constexpr std::size_t kDigits = 16;
+  return sha256_hex(bits).substr(0, kDigits);
+}
 
 constexpr NameTable<ErrorKind, 3> kErrorKindNames{
     {{"input", ErrorKind::kInput}, {"refused", ErrorKind::kRefused}, {"fault", ErrorKind::kFault}}};
