@@ -113,7 +113,7 @@ TEST(TurnUnits, APrintedMomentWithoutAnAngleDoesNotBoundTheRate) {
             "");
 }
 
-/// Computes the bounds independently, by the formulas of turn_evidence.h.
+/// Computes the bounds independently, by the formulas of CHECKS.md.
 TEST(TurnUnits, TheBoundsAreTheDocumentedOnes) {
   const std::string surge = "wheel_force,speed_mps\n0.2,0.5\n0.4,1.0\n0.8,3.0\n";
   const double tan20 = std::tan(std::acos(-1.0) / 9.0);

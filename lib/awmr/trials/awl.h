@@ -35,13 +35,7 @@ struct AwlLog {
 bool is_awl(std::string_view bytes);
 
 /// Reads all complete rows of a file. Each row has its own checksum, so the function finds rows
-/// after damaged bytes, too. Adds these findings, each with the places in the file:
-///   `rows-lost`          missing row numbers
-///   `log-damaged`        bytes that are not a row
-///   `log-truncated`      the file ends inside a row
-///   `rows-not-measured`  rows not used, because heading or speed was too old or a value not finite
-///   `short-run`          rows not used, because their run has fewer than ten usable rows
-///   `chip-reset`         a run began with a watchdog reset or a drop of the supply voltage
+/// after damaged bytes, too. Adds the findings of FORMATS.md, each with the places in the file.
 /// Errors (input): no complete header; a header that layout_of() refuses (awl_format.cpp); two
 /// headers that differ; more than 1000 damaged headers. Errors (refused): no usable row.
 Result<AwlLog> read_awl(std::string_view bytes, const std::string& file);

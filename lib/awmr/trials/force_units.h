@@ -1,18 +1,5 @@
-/// Guesses the unit of wheel forces that exceed the vehicle's limit F'max (`wheel_force`). Private
-/// to this folder.
-///
-///     largest force in the files           likely unit
-///     up to 1                              F', with too small a `wheel_force` in vehicle.json, or
-///                                          fractions of F'max
-///     up to 1.05 F'max                     multiples of a force smaller than F_max
-///     900 to 2200, no value below 900      microseconds of a servo pulse: F' = (us - 1500)/500
-///     100, 255, 1000, 1023, 4095 +-0.5 %   percent, PWM counts or per mille, at full power
-///     20 to 100 % of one of these          possibly that scale; the message lists all such scales
-///     acceleration n F/m 0.1 to 30 m/s^2   possibly newtons (n driven wheels, mass m in kg)
-///     2 to 60                              possibly volts
-///
-/// Only a force at full power identifies a scale for certain. The largest force in all tables of a
-/// vehicle is the one nearest to full power, so it decides the unit of every force column.
+/// Guesses the unit of wheel forces that exceed the vehicle's limit F'max (`wheel_force`), by the
+/// rules of CHECKS.md, "Unit of the forces". Private to this folder.
 #pragma once
 
 #include <optional>

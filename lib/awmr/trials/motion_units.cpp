@@ -149,7 +149,7 @@ std::optional<double> rate_over_rolling(const Evidence& evidence) {
 /// Detects a yaw rate in deg/s in logs without a heading. Its values are too large for any wheeled
 /// vehicle, or for the steering angle and the speed.
 std::optional<Contradiction> check_rate_alone(const Evidence& evidence) {
-  constexpr double kLargest_radps = 25.0;  // largest plausible yaw rate, as in turn_evidence.h
+  constexpr double kLargest_radps = 25.0;  // largest plausible yaw rate, as in turn_evidence.cpp
   if (!evidence.has(LogChannel::kYawRate) || evidence.has(LogChannel::kHeading)) return {};
   const double rate_radps = usual_largest(*evidence.log[LogChannel::kYawRate]);
   // Largest ratio that sliding wheels can explain. A yaw rate in deg/s instead of rad/s gives a

@@ -22,7 +22,7 @@ constexpr int kMinDifferences = 3;
 /// reading, the readings were computed, not read. Their last place is then not their resolution.
 constexpr double kComputed = 1e-6;
 
-/// Probability p in repeated_rows.h that two readings are the same by chance.
+/// Probability p of CHECKS.md that two readings are the same by chance.
 double chance_of_same(double q, double s) {
   const double a = q / (2.0 * s);
   // For small a the two terms below cancel numerically; p is then a/sqrt(pi), with an error below

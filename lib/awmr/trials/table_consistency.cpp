@@ -11,7 +11,6 @@
 #include "awmr/core/units.h"
 #include "force_units.h"
 #include "table_units.h"
-#include "turn_evidence.h"
 
 namespace awmr {
 namespace {

@@ -25,7 +25,7 @@ struct Tables {
 ///     units (force_units.h), which are assumed to be the same in all tables;
 ///   - steering angles that are all below 2 % of the stop: probably radians;
 ///   - speeds and times in another unit (table_units.h);
-///   - turns that are faster than wheels can roll or than grip allows (turn_evidence.h).
+///   - turns that are faster than wheels can roll or than grip allows (wrong_turn()).
 /// If `options.as_is` is true, adds them as findings (warning `table-contradiction`) instead.
 void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,

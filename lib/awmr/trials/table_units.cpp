@@ -32,9 +32,10 @@ constexpr std::array<ColumnUnit, 2> kTableTurnUnits{
     {{57.29578, "yaw_rate_radps", 1.0 / 57.29578, "the yaw rate looks like degrees per second"},
      {1000.0, "elapsed_s", 1e-3, "the time looks like milliseconds"}}};
 
-constexpr Interval kLengthsPerSecond{0.02, 100.0};
+constexpr Interval kLengthsPerSecond{0.02, 100.0};  // from a crawl to a racing model
 constexpr double kUsualLengthsPerSecond = 20.0;
 constexpr double kSlowTable_radps = 0.01;  // smallest plausible yaw rate of the fastest turn
+/// From the best bearings to locked racing tyres.
 constexpr Interval kMeanDeceleration_mps2{0.01, 20.0};
 
 /// Finds the unit of a column from `ratios`, the printed values divided by the timed values: the

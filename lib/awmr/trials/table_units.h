@@ -1,13 +1,5 @@
-/// Detects wrong units in tables of runs by comparing speeds and times with plausible ranges.
-/// Private to this folder.
-///
-///     quantity                                  expected range
-///     speed_mps over distance_m/elapsed_s       1; 3.6, 1000, 0.01, ... identify a unit
-///     yaw_rate_radps over 2 pi turns/elapsed_s  1; 57.3, 1000 identify a unit
-///     speed of fastest run/vehicle's length     0.02 to 100 1/s: from a crawl to a racing model
-///     fastest turn, if timed                    0.01 rad/s and more; upper limit: turn_evidence.h
-///     hardest coast-down, mean deceleration     0.01 m/s^2 (the best bearings) and more
-///     gentlest coast-down, mean deceleration    20 m/s^2 (locked racing tyres) and less
+/// Detects wrong units in tables of runs by comparing speeds, yaw rates and times with the ranges in
+/// CHECKS.md, "Implausible tables". Private to this folder.
 #pragma once
 
 #include <optional>
@@ -45,6 +37,15 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle);
 std::optional<WrongUnit> wrong_unit(const std::vector<CoastCurve>& curves,
+                                    const std::optional<TrialSet<SurgeRow>>& surge,
+                                    const Vehicle& vehicle);
+
+/// Checks that the yaw rates of a turning table are possible with rolling wheels and with the grip
+/// of tyres. For each limit, the check takes the row with the largest ratio of yaw rate to limit.
+/// If this row violates the limit, it returns the limit and the likely units of the yaw rates, or
+/// the single rows that are wrong. Empty if the turns are possible. `surge`: surge runs of the same
+/// vehicle; without them, only the limits by grip are checked.
+std::optional<WrongUnit> wrong_turn(const TrialSet<TurningRow>& turning,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle);
 

@@ -1,5 +1,3 @@
-#include "turn_evidence.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -15,11 +13,13 @@
 #include "awmr/core/units.h"
 #include "awmr/model/plausibility.h"
 #include "force_units.h"
+#include "table_units.h"
 
 namespace awmr {
 namespace {
 
-/// Largest accepted ratio of the yaw rate to that of rolling wheels. Steered turns: 3, because the
+/// Largest accepted ratio of the yaw rate to that of rolling wheels. In a turn, wheels roll no
+/// faster than straight ahead with the same force, and the wheelbase is longer than l_f. Steered turns: 3, because the
 /// vehicle may drift, or steer its rear wheels in addition to the front wheels. Differential turns:
 /// 4, because two interpolated speeds determine the limit, which makes it less certain.
 constexpr double kMaxSteered = 3.0;
@@ -28,8 +28,8 @@ constexpr double kMaxBySides = 4.0;
 /// ratio. Real turns have ratios several times larger, even with a wheelbase of five times l_f and
 /// strong understeer.
 constexpr double kMinSteered = 0.01;
-constexpr double kMaxAcceleration_mps2 = 60.0;
-constexpr double kFastestTurn_radps = 25.0;
+constexpr double kMaxAcceleration_mps2 = 60.0;  // 6 g, twice that of a spinning model car
+constexpr double kFastestTurn_radps = 25.0;     // four turns per second
 
 /// Usual range of the ratio of the yaw rate to that of rolling wheels if the unit is right. The
 /// message suggests only units that bring the largest ratio into this range.
@@ -134,7 +134,7 @@ std::string turn_text(const TurningRow& row) {
                      row.sides->right - row.sides->left);
 }
 
-/// Yaw rate of a steered turn, divided by the limit by rolling (turn_evidence.h). Empty if u is
+/// Yaw rate of a steered turn, divided by that of rolling wheels, u tan(d_r)/l_f. Empty if u is
 /// unknown.
 std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& speed,
                                        const Vehicle& vehicle) {
@@ -148,8 +148,8 @@ std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& 
                                *u, most)};
 }
 
-/// Yaw rate of a differential turn, divided by the limit by rolling (turn_evidence.h). Empty if one
-/// of the speeds is unknown. Scatter of the surge runs may make the curve u(tau) too flat between
+/// Yaw rate of a differential turn, divided by that of rolling wheels, (u(n F'R) - u(n F'L))/(2 d).
+/// Empty if one of the speeds is unknown. Scatter of the surge runs may make the curve u(tau) too flat between
 /// the two forces, so the slope there counts as at least half of the mean slope from the origin.
 std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& speed,
                                     const Vehicle& vehicle) {
@@ -170,7 +170,8 @@ std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& spe
                   difference, most)};
 }
 
-/// Yaw rate of a steered turn, divided by the limit by grip (turn_evidence.h).
+/// Yaw rate of a steered turn, divided by the limit by grip. The turning radius R is at least
+/// l_f/tan(d_r), so the centripetal acceleration r^2 R is at least r^2 l_f/tan(d_r).
 TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
   const double radius_m = vehicle.front_axle_m / std::tan(row.steering_rad);
   const double most = std::sqrt(kMaxAcceleration_mps2 / radius_m);
