@@ -7,28 +7,23 @@
 
 #include "awmr/core/units.h"
 #include "awmr/model/dynamics.h"
+#include "channel_quality.h"
 
 namespace awmr {
 namespace {
-
-/// Rows [begin, end) of a log.
-struct Stretch {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-};
 
 /// Steering angle of each row, rad: the measured one, or the command if none was measured.
 const std::vector<double>& steering_angle_of(const DrivingLog& log) {
   return log[LogChannel::kSteering] ? log[LogChannel::kSteering]->value : *log.steering_command_rad;
 }
 
-std::vector<Stretch> constant_commands(const DrivingLog& log, double same) {
+std::vector<RowSpan> constant_commands(const DrivingLog& log, double same) {
   // Takes the steering command if there is one, because noise changes a measured angle in every
   // row.
   const std::vector<double>& steering = log.driving_steering_rad();
   const double gap_s = kGapSteps * log.median_step_s();
-  std::vector<Stretch> stretches;
-  Stretch stretch{0, 1};
+  std::vector<RowSpan> stretches;
+  RowSpan stretch{0, 1};
   for (std::size_t i = 1; i <= log.rows(); ++i) {
     const auto moved = [&](const std::vector<double>& signal) {
       return std::abs(signal[i] - signal[stretch.begin]) > same;
@@ -54,7 +49,7 @@ struct Line {
   double rise_error = 0.0;
 };
 
-Line line_through(const DrivingLog& log, const Measured& rate, Stretch s) {
+Line line_through(const DrivingLog& log, const Measured& rate, RowSpan s) {
   double t = 0.0;
   double w = 0.0;
   int n = 0;
@@ -93,7 +88,7 @@ bool is_steady(const Line& line, double drift) {
 /// Cuts rows off the beginning of `stretch` until the remainder is steady (SteadyRule). Returns the
 /// straight line fitted to the rate in the remainder. Empty if no remainder is steady.
 std::optional<Line> steady_rest(const DrivingLog& log, const Measured& rate, const SteadyRule& rule,
-                                Stretch& stretch) {
+                                RowSpan& stretch) {
   for (double from_s = log.t_s[stretch.begin] + rule.settling_s;; from_s += rule.later_s) {
     while (stretch.begin < stretch.end && log.t_s[stretch.begin] < from_s) ++stretch.begin;
     if (stretch.begin >= stretch.end ||
@@ -105,14 +100,23 @@ std::optional<Line> steady_rest(const DrivingLog& log, const Measured& rate, con
   }
 }
 
-double mean_of(const std::vector<double>& signal, Stretch s) {
+double mean_of(const std::vector<double>& signal, RowSpan s) {
   double sum = 0.0;
   for (std::size_t i = s.begin; i < s.end; ++i) sum += signal[i];
   return sum / static_cast<double>(s.end - s.begin);
 }
 
+/// A part of a log with steady motion.
 struct SteadyRun {
-  SteadySegment segment;
+  double begin_s = 0.0;  ///< t_s of its first row
+  double end_s = 0.0;    ///< t_s of its last row
+  int line = 0;          ///< line of its first row in the file
+  bool turning = false;  ///< true: turning run; false: surge run
+  /// Magnitude of the yaw rate (turning run, rad/s) or speed (surge run, m/s).
+  double mean_rate = 0.0;
+  /// Standard error of mean_rate, from the scatter about the straight line. Assumes independent
+  /// errors of neighbouring rows.
+  double std_error = 0.0;
   double wheel_force = 0.0;   ///< F' of each wheel, the mean of both sides
   double steering_rad = 0.0;  ///< steering angle, rad, left positive
   SideForces<double> sides{};
@@ -120,7 +124,7 @@ struct SteadyRun {
 
 /// Returns the steady run in a stretch of constant commands (SteadyRule); empty if there is none.
 std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicle,
-                                    const SteadyRule& rule, Stretch stretch) {
+                                    const SteadyRule& rule, RowSpan stretch) {
   const double left = mean_of(log.force_left, stretch);
   const double right = mean_of(log.force_right, stretch);
   const double steering_rad = mean_of(steering_angle_of(log), stretch);
@@ -132,21 +136,25 @@ std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicl
   const auto line = steady_rest(log, *rate, rule, stretch);
   if (!line) return std::nullopt;
   // A mean rate that does not exceed three standard errors may be 0: the vehicle may be at rest.
-  if (!(std::abs(line->mean) > 3.0 * line->mean_error) || line->mean == 0.0) return std::nullopt;
+  if (!(std::abs(line->mean) > 3.0 * line->mean_error)) return std::nullopt;
   const double left_turn = by_sides ? right - left : steering_rad;
   if (turning ? line->mean * left_turn < 0.0 : line->mean < 0.0) return std::nullopt;
-  return SteadyRun{{log.t_s[stretch.begin], log.t_s[stretch.end - 1], log.line[stretch.begin],
-                    turning, std::abs(line->mean), line->mean_error},
-                   0.5 * (left + right),
-                   steering_rad,
-                   {left, right}};
+  return SteadyRun{.begin_s = log.t_s[stretch.begin],
+                   .end_s = log.t_s[stretch.end - 1],
+                   .line = log.line[stretch.begin],
+                   .turning = turning,
+                   .mean_rate = std::abs(line->mean),
+                   .std_error = line->mean_error,
+                   .wheel_force = 0.5 * (left + right),
+                   .steering_rad = steering_rad,
+                   .sides = {left, right}};
 }
 
 TurningRow sides_turning_row(const SteadyRun& run, const Vehicle& vehicle) {
   const auto [least, most] = std::minmax(run.sides.left, run.sides.right);
-  return {.line = run.segment.line,
+  return {.line = run.line,
           .tau_turn_m = differential_moment_m(vehicle.half_track_m, most - least),
-          .yaw_rate_radps = run.segment.mean_rate,
+          .yaw_rate_radps = run.mean_rate,
           .turns = {},
           .elapsed_s = {},
           .sides = SideForces<double>{least, most}};
@@ -155,27 +163,26 @@ TurningRow sides_turning_row(const SteadyRun& run, const Vehicle& vehicle) {
 TurningRow turning_row(const SteadyRun& run, const Vehicle& vehicle) {
   if (!vehicle.has_steering()) return sides_turning_row(run, vehicle);
   const double angle = std::abs(run.steering_rad);
-  return {.line = run.segment.line,
+  return {.line = run.line,
           .steering_rad = angle,
           .wheel_force = run.wheel_force,
           .tau_turn_m = steering_moment_m(vehicle.front_axle_m, run.wheel_force, angle),
-          .yaw_rate_radps = run.segment.mean_rate,
+          .yaw_rate_radps = run.mean_rate,
           .turns = {},
           .elapsed_s = {}};
 }
 
 Finding note_of(const SteadyRun& run, const Vehicle& vehicle, const std::string& file) {
-  const SteadySegment& segment = run.segment;
-  const bool by_sides = segment.turning && !vehicle.has_steering();
-  return {file, segment.line, Severity::kNote, "steady-segment",
+  const bool by_sides = run.turning && !vehicle.has_steering();
+  return {file, run.line, Severity::kNote, "steady-segment",
           fmt::format("steady from {:.3f} to {:.3f} s: {} run, {}, {} {:.4g} +- {:.2g} {}",
-                      segment.begin_s, segment.end_s, segment.turning ? "turning" : "surge",
+                      run.begin_s, run.end_s, run.turning ? "turning" : "surge",
                       by_sides ? fmt::format("force_left {:.4g}, force_right {:.4g}",
                                              run.sides.left, run.sides.right)
                                : fmt::format("wheel_force {:.4g}, steering {:.3g} deg",
                                              run.wheel_force, degrees(run.steering_rad)),
-                      segment.turning ? "yaw rate" : "speed", segment.mean_rate, segment.std_error,
-                      segment.turning ? "rad/s" : "m/s")};
+                      run.turning ? "yaw rate" : "speed", run.mean_rate, run.std_error,
+                      run.turning ? "rad/s" : "m/s")};
 }
 
 }  // namespace
@@ -184,19 +191,18 @@ SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const Stea
                        std::vector<Finding>& findings) {
   SteadyRuns runs;
   runs.surge.file = runs.turning.file = log.file;
-  for (const Stretch stretch : constant_commands(log, rule.same)) {
+  for (const RowSpan stretch : constant_commands(log, rule.same)) {
     const auto run = steady_run(log, vehicle, rule, stretch);
     if (!run) continue;
-    if (run->segment.turning) {
+    if (run->turning) {
       runs.turning.rows.push_back(turning_row(*run, vehicle));
     } else {
-      runs.surge.rows.push_back({run->segment.line,
+      runs.surge.rows.push_back({run->line,
                                  vehicle.driven_wheels() * run->wheel_force,
-                                 run->segment.mean_rate,
+                                 run->mean_rate,
                                  {},
                                  {}});
     }
-    runs.segments.push_back(run->segment);
     findings.push_back(note_of(*run, vehicle, log.file));
   }
   return runs;
@@ -208,7 +214,7 @@ std::vector<SteadyWheel> steady_wheels(const DrivingLog& log, const Vehicle& veh
   const auto& yaw_rate = log[LogChannel::kYawRate];
   if (!speed) return {};
   std::vector<SteadyWheel> wheels;
-  for (Stretch stretch : constant_commands(log, rule.same)) {
+  for (RowSpan stretch : constant_commands(log, rule.same)) {
     const double left = mean_of(log.force_left, stretch);
     const double right = mean_of(log.force_right, stretch);
     const auto u = steady_rest(log, *speed, rule, stretch);

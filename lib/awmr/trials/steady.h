@@ -36,24 +36,10 @@ struct SteadyRule {
   double straight_rad = 0.0087;
 };
 
-/// A part of a log with steady motion.
-struct SteadySegment {
-  double begin_s = 0.0;  ///< t_s of its first row
-  double end_s = 0.0;    ///< t_s of its last row
-  int line = 0;          ///< line of its first row in the file
-  bool turning = false;  ///< true: turning run; false: surge run
-  /// Magnitude of the yaw rate (turning run, rad/s) or speed (surge run, m/s).
-  double mean_rate = 0.0;
-  /// Standard error of mean_rate, from the scatter about the straight line. Assumes independent
-  /// errors of neighbouring rows.
-  double std_error = 0.0;
-};
-
-/// Steady segments of a log and the resulting trial rows.
+/// Trial rows from the steady segments of a log.
 struct SteadyRuns {
   TrialSet<SurgeRow> surge;
   TrialSet<TurningRow> turning;
-  std::vector<SteadySegment> segments;
 };
 
 /// Finds the steady segments of a log. Adds a note `steady-segment` for each.
