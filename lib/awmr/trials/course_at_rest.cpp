@@ -1,7 +1,10 @@
 #include "course_at_rest.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "awmr/control/wrap_angle.h"
@@ -14,6 +17,13 @@ namespace {
 /// The vehicle counts as at rest below this speed, or below a tenth of its highest speed if that is
 /// smaller.
 constexpr double kRest_mps = 0.1;
+/// Result of course_at_rest().
+struct CourseAtRest {
+  double rest_mps = 0.0;          ///< the vehicle counts as at rest below this speed
+  std::vector<std::size_t> rows;  ///< rows with an invalid heading; empty: all headings are valid
+  double jump_rad = 0.0;          ///< largest change between headings at rest, [0, pi]
+};
+
 double difference(double a_rad, double b_rad) { return std::abs(wrap_angle(a_rad - b_rad)); }
 
 /// If the heading changes by more than this from one reading to the next, it is a jump of a GPS
@@ -36,8 +46,6 @@ double far_rad(std::span<const double> heading_rad, std::span<const std::size_t>
   const double change_std = kStdPerMad * median(second) * std::sqrt(2.0 / 6.0);
   return std::max(kFar_rad, kStandardDeviations * change_std);
 }
-
-}  // namespace
 
 CourseAtRest course_at_rest(std::span<const double> speed_mps, std::span<const double> heading_rad,
                             std::span<const std::size_t> present) {
@@ -70,6 +78,28 @@ CourseAtRest course_at_rest(std::span<const double> speed_mps, std::span<const d
   }
   if (found.jump_rad <= far) found.rows.clear();
   return found;
+}
+
+}  // namespace
+
+void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> speed_mps,
+                              std::vector<double>& heading_rad, std::vector<std::size_t>& present,
+                              std::vector<Finding>& findings) {
+  const CourseAtRest found = course_at_rest(speed_mps, heading_rad, present);
+  if (found.rows.empty() || found.rows.size() == present.size()) return;
+  std::vector<std::size_t> kept;
+  std::ranges::set_difference(present, found.rows, std::back_inserter(kept));
+  present = std::move(kept);
+  for (std::size_t row = 0; row < heading_rad.size(); ++row) {
+    const auto next = std::ranges::lower_bound(present, row);
+    heading_rad[row] = heading_rad[next != present.end() ? *next : present.back()];
+  }
+  findings.push_back(
+      {log.file, log.line[found.rows.front()], Severity::kWarning, "course-at-rest",
+       fmt::format("heading_deg: {} readings at rest (below {:.2g} m/s) jump by up to {:.0f} deg, "
+                   "like the direction of motion that a GPS reports (its course). These readings "
+                   "are not used; to have a heading at rest, log a compass",
+                   found.rows.size(), found.rest_mps, degrees(found.jump_rad))});
 }
 
 }  // namespace awmr

@@ -5,7 +5,6 @@
 #include <GeographicLib/LocalCartesian.hpp>
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "awmr/core/csv.h"
 #include "awmr/core/option_text.h"
@@ -328,29 +327,6 @@ std::vector<double> last_speeds(const TrialReader& reader, RowSpan rows) {
               speeds.begin() + static_cast<std::ptrdiff_t>(end), cells[present[i]]);
   }
   return speeds;
-}
-
-/// Removes rows from `present`, the rows with a heading: those whose heading is invalid because the
-/// vehicle rests (course_at_rest.h). In these rows, replaces the heading by the next valid heading.
-/// Adds the finding `course-at-rest`.
-void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> speed_mps,
-                              std::vector<double>& heading_rad, std::vector<std::size_t>& present,
-                              std::vector<Finding>& findings) {
-  const CourseAtRest found = course_at_rest(speed_mps, heading_rad, present);
-  if (found.rows.empty() || found.rows.size() == present.size()) return;
-  std::vector<std::size_t> kept;
-  std::ranges::set_difference(present, found.rows, std::back_inserter(kept));
-  present = std::move(kept);
-  for (std::size_t row = 0; row < heading_rad.size(); ++row) {
-    const auto next = std::ranges::lower_bound(present, row);
-    heading_rad[row] = heading_rad[next != present.end() ? *next : present.back()];
-  }
-  findings.push_back(
-      {log.file, log.line[found.rows.front()], Severity::kWarning, "course-at-rest",
-       fmt::format("heading_deg: {} readings at rest (below {:.2g} m/s) jump by up to {:.0f} deg, "
-                   "like the direction of motion that a GPS reports (its course). These readings "
-                   "are not used; to have a heading at rest, log a compass",
-                   found.rows.size(), found.rest_mps, degrees(found.jump_rad))});
 }
 
 DrivingLog log_of(TrialReader& reader, RowSpan rows, std::span<const LogChannel> unmeasured,
