@@ -36,6 +36,11 @@ void JsonObject::fault(ErrorCode code, std::string_view key, std::string message
   add_fault(code, *faults_, file_, pointer(key), std::move(message));
 }
 
+void JsonObject::wrong(ErrorCode code, std::string_view key, std::string_view expected,
+                       const Json& found) {
+  fault(code, key, fmt::format("expected {}, found {}", expected, describe(found)));
+}
+
 void JsonObject::fault(std::string_view key, const Error& cause) {
   fault(cause.faults.front().code, key, cause.faults.front().message);
 }
@@ -68,18 +73,9 @@ double JsonObject::number(std::string_view key, NumberRule rule) {
   if (shape_ != nullptr) shape_->type(key, schema_of(rule));
   const Json* value = find(key, true);
   if (value == nullptr) return kNoNumber;
-  if (!value->is_number() || !std::isfinite(value->get<double>()) ||
-      !allows(rule, value->get<double>())) {
-    fault(number_error(*value), key,
-          fmt::format("expected {}, found {}", describe(rule), describe(*value)));
-    return kNoNumber;
-  }
-  return value->get<double>();
-}
-
-std::optional<double> JsonObject::optional_number(std::string_view key, NumberRule rule) {
-  if (!has(key)) return std::nullopt;
-  return number(key, rule);
+  if (value->is_number() && allows(rule, value->get<double>())) return value->get<double>();
+  wrong(number_error(*value), key, describe(rule), *value);
+  return kNoNumber;
 }
 
 std::optional<double> JsonObject::nullable_number(std::string_view key, NumberRule rule) {
@@ -97,13 +93,9 @@ long JsonObject::integer(std::string_view key, long min, long max) {
                     (!value->is_number_unsigned() ||
                      value->get<std::uint64_t>() <= std::numeric_limits<long>::max()) &&
                     value->get<long>() >= min && value->get<long>() <= max;
-  if (!fits) {
-    fault(
-        number_error(*value), key,
-        fmt::format("expected a whole number from {} to {}, found {}", min, max, describe(*value)));
-    return min;
-  }
-  return value->get<long>();
+  if (fits) return value->get<long>();
+  wrong(number_error(*value), key, fmt::format("a whole number from {} to {}", min, max), *value);
+  return min;
 }
 
 std::uint64_t JsonObject::seed(std::string_view key) {
@@ -113,34 +105,18 @@ std::uint64_t JsonObject::seed(std::string_view key) {
   }
   const Json* value = find(key, true);
   if (value == nullptr) return 0;
-  if (!value->is_number_unsigned()) {
-    fault(number_error(*value), key,
-          fmt::format("expected a whole number from 0 to {}, found {}", kMax, describe(*value)));
-    return 0;
-  }
-  return value->get<std::uint64_t>();
-}
-
-std::optional<long> JsonObject::optional_integer(std::string_view key, long min, long max) {
-  if (!has(key)) return std::nullopt;
-  return integer(key, min, max);
+  if (value->is_number_unsigned()) return value->get<std::uint64_t>();
+  wrong(number_error(*value), key, fmt::format("a whole number from 0 to {}", kMax), *value);
+  return 0;
 }
 
 bool JsonObject::boolean(std::string_view key) {
   if (shape_ != nullptr) shape_->type(key, {{"type", "boolean"}});
   const Json* value = find(key, true);
   if (value == nullptr) return false;
-  if (!value->is_boolean()) {
-    fault(ErrorCode::kWrongType, key,
-          fmt::format("expected true or false, found {}", describe(*value)));
-    return false;
-  }
-  return value->get<bool>();
-}
-
-std::optional<bool> JsonObject::optional_boolean(std::string_view key) {
-  if (!has(key)) return std::nullopt;
-  return boolean(key);
+  if (value->is_boolean()) return value->get<bool>();
+  wrong(ErrorCode::kWrongType, key, "true or false", *value);
+  return false;
 }
 
 std::string JsonObject::string(std::string_view key) {
@@ -148,7 +124,7 @@ std::string JsonObject::string(std::string_view key) {
   const Json* value = find(key, true);
   if (value == nullptr) return {};
   if (!value->is_string()) {
-    fault(ErrorCode::kWrongType, key, fmt::format("expected a string, found {}", describe(*value)));
+    wrong(ErrorCode::kWrongType, key, "a string", *value);
     return {};
   }
   if (value->get_ref<const std::string&>().find('\0') != std::string::npos) {
@@ -156,11 +132,6 @@ std::string JsonObject::string(std::string_view key) {
     return {};
   }
   return value->get<std::string>();
-}
-
-std::optional<std::string> JsonObject::optional_string(std::string_view key) {
-  if (!has(key)) return std::nullopt;
-  return string(key);
 }
 
 std::optional<std::string> JsonObject::optional_number_or_string(std::string_view key,
@@ -202,11 +173,6 @@ JsonObject JsonObject::object(std::string_view key) {
   JsonObject absent(kEmpty, file_, pointer(key), *faults_);
   absent.value_ = nullptr;
   return absent;
-}
-
-std::optional<JsonObject> JsonObject::optional_object(std::string_view key) {
-  if (!has(key)) return std::nullopt;
-  return object(key);
 }
 
 std::vector<JsonObject> JsonObject::values() {

@@ -56,15 +56,23 @@ class JsonObject {
   /// which numbers() and strings() leave out. Absent if the key is missing or has another type.
   std::optional<std::size_t> size(std::string_view key) const;
   double number(std::string_view key, NumberRule rule = kAnyNumber);
-  std::optional<double> optional_number(std::string_view key, NumberRule rule = kAnyNumber);
+  std::optional<double> optional_number(std::string_view key, NumberRule rule = kAnyNumber) {
+    return has(key) ? std::optional(number(key, rule)) : std::nullopt;
+  }
   /// `null` is allowed and gives nullopt; a missing key is a fault.
   std::optional<double> nullable_number(std::string_view key, NumberRule rule = kAnyNumber);
   long integer(std::string_view key, long min, long max);
-  std::optional<long> optional_integer(std::string_view key, long min, long max);
+  std::optional<long> optional_integer(std::string_view key, long min, long max) {
+    return has(key) ? std::optional(integer(key, min, max)) : std::nullopt;
+  }
   bool boolean(std::string_view key);
-  std::optional<bool> optional_boolean(std::string_view key);
+  std::optional<bool> optional_boolean(std::string_view key) {
+    return has(key) ? std::optional(boolean(key)) : std::nullopt;
+  }
   std::string string(std::string_view key);
-  std::optional<std::string> optional_string(std::string_view key);
+  std::optional<std::string> optional_string(std::string_view key) {
+    return has(key) ? std::optional(string(key)) : std::nullopt;
+  }
   /// A whole number from 0 to 2^64 - 1; 0 on a fault.
   std::uint64_t seed(std::string_view key);
   /// The value as text: a string, or a number in the range of `rule`. Empty if the key is missing
@@ -81,7 +89,9 @@ class JsonObject {
   }
   /// `[lo, hi]` with lo <= hi and both ends in the range of the rule; [0, 0] on a fault.
   Interval interval(std::string_view key, NumberRule rule = kAnyNumber);
-  std::optional<Interval> optional_interval(std::string_view key, NumberRule rule = kAnyNumber);
+  std::optional<Interval> optional_interval(std::string_view key, NumberRule rule = kAnyNumber) {
+    return has(key) ? std::optional(interval(key, rule)) : std::nullopt;
+  }
   std::optional<Interval> nullable_interval(std::string_view key);
   std::vector<double> numbers(std::string_view key, NumberRule rule = kAnyNumber);
   std::vector<std::string> strings(std::string_view key);
@@ -91,7 +101,9 @@ class JsonObject {
   /// The object under the key. If it is missing or not an object (a fault), returns an empty view
   /// that reports no further faults.
   JsonObject object(std::string_view key);
-  std::optional<JsonObject> optional_object(std::string_view key);
+  std::optional<JsonObject> optional_object(std::string_view key) {
+    return has(key) ? std::optional(object(key)) : std::nullopt;
+  }
   /// Returns read(*this), and then rejects the keys that it did not read.
   template <ObjectReader Read>
   auto read_by(const Read& read) {
@@ -111,7 +123,9 @@ class JsonObject {
   }
   /// The elements of an array of objects.
   std::vector<JsonObject> objects(std::string_view key);
-  std::vector<JsonObject> optional_objects(std::string_view key);
+  std::vector<JsonObject> optional_objects(std::string_view key) {
+    return has(key) ? objects(key) : std::vector<JsonObject>();
+  }
   /// Reads each element by read_by().
   template <ObjectReader Read>
   auto objects(std::string_view key, const Read& read) {
@@ -151,6 +165,9 @@ class JsonObject {
 
  private:
   const Json* find(std::string_view key, bool required);
+  const Json* array(std::string_view key, std::string_view elements);
+  /// Adds a fault for the value of the key: "expected ..., found ...".
+  void wrong(ErrorCode code, std::string_view key, std::string_view expected, const Json& found);
   const Json* value_ = nullptr;  ///< null: an object that reports no faults
   std::string file_;
   std::string pointer_;

@@ -43,14 +43,8 @@ Interval JsonObject::interval(std::string_view key, NumberRule rule) {
       return {};
     }
   }
-  fault(ErrorCode::kWrongType, key,
-        fmt::format("expected [lo, hi] with lo <= hi, found {}", describe(*value)));
+  wrong(ErrorCode::kWrongType, key, "[lo, hi] with lo <= hi", *value);
   return {};
-}
-
-std::optional<Interval> JsonObject::optional_interval(std::string_view key, NumberRule rule) {
-  if (!has(key)) return std::nullopt;
-  return interval(key, rule);
 }
 
 std::optional<Interval> JsonObject::nullable_interval(std::string_view key) {
@@ -60,16 +54,19 @@ std::optional<Interval> JsonObject::nullable_interval(std::string_view key) {
   return interval(key);
 }
 
+/// The array under the key; null, with a fault, if the key is missing or has another value.
+const Json* JsonObject::array(std::string_view key, std::string_view elements) {
+  const Json* value = find(key, true);
+  if (value == nullptr || value->is_array()) return value;
+  wrong(ErrorCode::kWrongType, key, fmt::format("an array of {}", elements), *value);
+  return nullptr;
+}
+
 std::vector<double> JsonObject::numbers(std::string_view key, NumberRule rule) {
   if (shape_ != nullptr) shape_->type(key, array_schema(schema_of(rule)));
-  const Json* value = find(key, true);
+  const Json* value = array(key, "numbers");
   std::vector<double> result;
   if (value == nullptr) return result;
-  if (!value->is_array()) {
-    fault(ErrorCode::kWrongType, key,
-          fmt::format("expected an array of numbers, found {}", describe(*value)));
-    return result;
-  }
   for (std::size_t i = 0; i < value->size(); ++i) {
     const Json& element = (*value)[i];
     if (element.is_number() && allows(rule, element.get<double>())) {
@@ -84,14 +81,9 @@ std::vector<double> JsonObject::numbers(std::string_view key, NumberRule rule) {
 
 std::vector<std::string> JsonObject::strings(std::string_view key) {
   if (shape_ != nullptr) shape_->type(key, array_schema({{"type", "string"}}));
-  const Json* value = find(key, true);
+  const Json* value = array(key, "strings");
   std::vector<std::string> result;
   if (value == nullptr) return result;
-  if (!value->is_array()) {
-    fault(ErrorCode::kWrongType, key,
-          fmt::format("expected an array of strings, found {}", describe(*value)));
-    return result;
-  }
   for (std::size_t i = 0; i < value->size(); ++i) {
     const Json& element = (*value)[i];
     if (element.is_string()) {
@@ -105,24 +97,14 @@ std::vector<std::string> JsonObject::strings(std::string_view key) {
 }
 
 std::vector<JsonObject> JsonObject::objects(std::string_view key) {
-  const Json* value = find(key, true);
+  const Json* value = array(key, "objects");
   if (shape_ != nullptr) return {JsonObject(shape_->element(key), *faults_)};
   std::vector<JsonObject> result;
   if (value == nullptr) return result;
-  if (!value->is_array()) {
-    fault(ErrorCode::kWrongType, key,
-          fmt::format("expected an array of objects, found {}", describe(*value)));
-    return result;
-  }
   for (std::size_t i = 0; i < value->size(); ++i) {
     result.emplace_back((*value)[i], file_, fmt::format("{}/{}", pointer(key), i), *faults_);
   }
   return result;
-}
-
-std::vector<JsonObject> JsonObject::optional_objects(std::string_view key) {
-  if (!has(key)) return {};
-  return objects(key);
 }
 
 const Json* JsonObject::rows(std::string_view key) {
