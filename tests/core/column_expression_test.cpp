@@ -156,7 +156,7 @@ void expect_x(std::string_view file, const std::string& mapping, std::vector<dou
   const auto table = x_of(file, {mapping});
   ASSERT_TRUE(table) << mapping << ": " << to_text(table.error());
   EXPECT_THAT(table->column("x"), ::testing::ElementsAreArray(expected)) << mapping;
-  EXPECT_THAT(table->mapped(), ElementsAre(0U)) << mapping;
+  EXPECT_THAT(table->mapped, ElementsAre(0U)) << mapping;
 }
 
 TEST(CsvExpressions, AreEvaluatedByRow) {
@@ -200,7 +200,7 @@ TEST(CsvExpressions, TheFilesOwnMappingComesBeforeTheOthers) {
   const auto table = x_of("a,b\n1,2\n", {"x=a", "a.csv:x=b", "b.csv:x=c"});
   ASSERT_TRUE(table) << to_text(table.error());
   EXPECT_THAT(table->column("x"), ElementsAre(2.0));
-  EXPECT_THAT(table->mapped(), ElementsAre(1U));
+  EXPECT_THAT(table->mapped, ElementsAre(1U));
 }
 
 TEST(CsvExpressions, TheVehiclesMappingHasTheLowestPriority) {

@@ -77,7 +77,7 @@ TEST(Csv, ReadsALastLineWithoutAnEnd) {
 /// Returns the notes of a table, one per line, as `CODE@LINE: MESSAGE`.
 std::string notes_of(const Result<CsvTable>& table) {
   std::string text;
-  for (const CsvNote& note : table->notes()) {
+  for (const CsvNote& note : table->notes) {
     text += note.code + "@" + std::to_string(note.line) + ": " + note.message + "\n";
   }
   return text;
@@ -244,7 +244,7 @@ TEST(Csv, ARunMayLackAnOptionalValueWhateverTheOthersHave) {
   ASSERT_TRUE(table) << to_text(table.error());
   EXPECT_EQ(table->rows(), 5U);
   EXPECT_THAT(table->present("b"), ElementsAre(true, false, true, true, true));
-  EXPECT_TRUE(table->notes().empty());
+  EXPECT_TRUE(table->notes.empty());
   // A column without any value does not count; no row is dropped for it.
   const auto without = read_text("a,b\n1,\n2,\n", columns);
   ASSERT_TRUE(without) << to_text(without.error());

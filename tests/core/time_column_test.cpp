@@ -96,9 +96,9 @@ TEST(CsvTime, IsConvertedAndNoted) {
   const auto table = read_text("time_ms,v\n0,1\n20,2\n", kLog);
   ASSERT_TRUE(table) << to_text(table.error());
   EXPECT_THAT(table->column("t_s"), ElementsAre(0.0, 0.02));
-  ASSERT_THAT(table->notes(), SizeIs(1));
-  EXPECT_EQ(table->notes()[0].code, "time-column");
-  EXPECT_THAT(table->notes()[0].message, HasSubstr("\"time_ms\" in ms"));
+  ASSERT_THAT(table->notes, SizeIs(1));
+  EXPECT_EQ(table->notes[0].code, "time-column");
+  EXPECT_THAT(table->notes[0].message, HasSubstr("\"time_ms\" in ms"));
 }
 
 TEST(CsvTime, OfAClockCountsFromTheFirstRow) {
@@ -113,7 +113,7 @@ TEST(CsvTime, OfAClockCountsFromTheFirstRow) {
       kLog);
   ASSERT_TRUE(dates) << to_text(dates.error());
   EXPECT_THAT(dates->column("t_s"), ElementsAre(0.0, 0.75, 1.75));
-  EXPECT_THAT(dates->notes().back().message, HasSubstr("counted from the first row"));
+  EXPECT_THAT(dates->notes.back().message, HasSubstr("counted from the first row"));
 }
 
 TEST(CsvTime, AMappingMayNameAColumnOfDates) {
@@ -127,7 +127,7 @@ TEST(CsvTime, TheColumnOfTheContractComesFirst) {
   const auto table = read_text("time_ms,t_s\n5,1\n6,2\n", kLog);
   ASSERT_TRUE(table);
   EXPECT_THAT(table->column("t_s"), ElementsAre(1.0, 2.0));
-  EXPECT_THAT(table->notes(), IsEmpty());
+  EXPECT_THAT(table->notes, IsEmpty());
 }
 
 TEST(CsvTime, RefusesAmbiguousTimes) {

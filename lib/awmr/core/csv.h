@@ -43,30 +43,27 @@ struct CsvNote {
 };
 
 /// Table of the requested columns: their numbers, and the place of each cell in the file.
-class CsvTable {
- public:
+struct CsvTable {
   struct Column {
     std::vector<double> values;
     /// By row: position of the cell in its line, in characters from 1; empty: unknown.
     std::vector<int> character;
     std::vector<bool> present = {};  ///< by row: true if the file has a value; empty: in all rows
   };
-  /// Content of a table.
-  struct Parts {
-    std::string file;
-    int header_line = 1;
-    RowLines lines = {};
-    std::map<std::string, Column, std::less<>> columns = {};
-    std::vector<CsvNote> notes = {};
-    std::vector<std::size_t> mapped = {};  ///< see mapped()
-    double clock_s = 0.0;                  ///< see clock_s()
-  };
-  /// Precondition: every column has a value for every line.
-  explicit CsvTable(Parts parts) : parts_(std::move(parts)) {}
+  std::string file;
+  int header_line = 1;
+  RowLines lines = {};  ///< by row
+  /// By name; each column has a value for every row.
+  std::map<std::string, Column, std::less<>> columns = {};
+  std::vector<CsvNote> notes = {};
+  /// Indices of the mappings that were used, in the list of mappings given to the reader.
+  std::vector<std::size_t> mapped = {};
+  /// Clock time of the first row, s, such as seconds since 1970. It was subtracted from the times
+  /// t_s. 0 if the file has no clock time.
+  double clock_s = 0.0;
 
-  const std::string& file() const { return parts_.file; }
-  std::size_t rows() const { return parts_.lines.size(); }
-  bool has(std::string_view column) const;
+  std::size_t rows() const { return lines.size(); }
+  bool has(std::string_view column) const { return columns.find(column) != columns.end(); }
   /// Values by row. Precondition: has(column).
   std::span<const double> column(std::string_view column) const;
   /// As column(), but moves the values out of the table: its column is empty afterwards.
@@ -77,21 +74,12 @@ class CsvTable {
   /// has(column).
   const std::vector<bool>& present(std::string_view column) const;
   /// Line in the file, from 1.
-  int line(std::size_t row) const { return parts_.lines[row]; }
+  int line(std::size_t row) const { return lines[row]; }
   /// Place of a cell, `FILE:LINE:COLUMN`, where COLUMN counts characters. `FILE:LINE:1` if the
   /// table lacks the column or its position is unknown.
   std::string place(std::size_t row, std::string_view column) const;
   /// `FILE:LINE:1` of the header.
   std::string header_place() const;
-  const std::vector<CsvNote>& notes() const { return parts_.notes; }
-  /// Clock time of the first row, s, such as seconds since 1970. It was subtracted from the times
-  /// t_s. 0 if the file has no clock time.
-  double clock_s() const { return parts_.clock_s; }
-  /// Indices of the mappings that were used, in the list of mappings given to the reader.
-  const std::vector<std::size_t>& mapped() const { return parts_.mapped; }
-
- private:
-  Parts parts_;
 };
 
 /// Reads the requested columns. A log can have signals of different rates in one table, with many

@@ -11,14 +11,14 @@ namespace {
 /// For each row, true if it is kept. Two conditions must hold: in this row or above it, each
 /// command (kHeld) has a value; and in this row, at least one column that may have empty cells has
 /// a value.
-std::vector<bool> rows_that_count(const CsvTable::Parts& parts, const ColumnSources& sources) {
-  const std::size_t rows = parts.lines.size();
+std::vector<bool> rows_that_count(const CsvTable& table, const ColumnSources& sources) {
+  const std::size_t rows = table.lines.size();
   std::vector<bool> counts(rows, false);
   std::size_t known = 0;
   for (const ColumnSource& source : sources.found) {
     if (source.column.empty == EmptyCells::kFault || source.indices.empty()) continue;
-    const auto column = parts.columns.find(source.column.name);
-    if (column == parts.columns.end()) continue;
+    const auto column = table.columns.find(source.column.name);
+    if (column == table.columns.end()) continue;
     const std::vector<bool>& present = column->second.present;
     for (std::size_t row = 0; row < rows; ++row) {
       if (present.empty() || present[row]) counts[row] = true;
@@ -50,9 +50,9 @@ void keep(Values& values, const std::vector<bool>& kept) {
 }
 
 /// Text with the number of values of each column that has empty cells: "heading_deg 120, ...".
-std::string rates_of(const CsvTable::Parts& parts) {
+std::string rates_of(const CsvTable& table) {
   std::string text;
-  for (const auto& [name, column] : parts.columns) {
+  for (const auto& [name, column] : table.columns) {
     if (column.present.empty()) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name,
                         std::count(column.present.begin(), column.present.end(), true));
@@ -62,23 +62,23 @@ std::string rates_of(const CsvTable::Parts& parts) {
 
 }  // namespace
 
-void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources) {
-  const std::vector<bool> kept = rows_that_count(parts, sources);
-  const std::size_t before = parts.lines.size();
-  parts.lines = kept_lines(parts.lines, kept);
-  for (auto& [name, column] : parts.columns) {
+void drop_rows(CsvTable& table, const ColumnSources& sources) {
+  const std::vector<bool> kept = rows_that_count(table, sources);
+  const std::size_t before = table.lines.size();
+  table.lines = kept_lines(table.lines, kept);
+  for (auto& [name, column] : table.columns) {
     keep(column.values, kept);
     keep(column.character, kept);
     keep(column.present, kept);
   }
-  parts.notes.push_back(
+  table.notes.push_back(
       {0, "joined-by-time",
        fmt::format(
            "signals of different rates were joined by time into {} rows; number of values by "
            "column: {}. A command keeps its value until its next value. A measurement is used only "
            "in the rows that have it, a formula only in the rows of its most frequent column. {} "
            "rows without a value, or before the first value of every command, are left out",
-           parts.lines.size(), rates_of(parts), before - parts.lines.size())});
+           table.lines.size(), rates_of(table), before - table.lines.size())});
 }
 
 bool is_void(const CsvTable::Column& column) {
@@ -86,13 +86,13 @@ bool is_void(const CsvTable::Column& column) {
   return !present.empty() && std::find(present.begin(), present.end(), true) == present.end();
 }
 
-void refuse_void_columns(const CsvTable::Parts& parts, const ColumnSources& sources,
+void refuse_void_columns(const CsvTable& table, const ColumnSources& sources,
                          std::vector<Fault>& faults) {
   for (const ColumnSource& source : sources.found) {
     if (source.column.empty == EmptyCells::kOptional) continue;
-    if (!is_void(parts.columns.at(source.column.name))) continue;
+    if (!is_void(table.columns.at(source.column.name))) continue;
     faults.push_back(
-        {ErrorCode::kMissing, fmt::format("{}:{}:1", parts.file, parts.header_line),
+        {ErrorCode::kMissing, table.header_place(),
          fmt::format("the column {} has no value in any row; add values, or map another "
                      "column",
                      source.column.name)});

@@ -199,16 +199,16 @@ CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, b
 
 /// Completes a time column that find_time() found, or that has dates. If it begins with a date or a
 /// clock time (kClockTime_s), subtracts this first time from all. Adds the note `time-column`.
-void settle_time(const ColumnSource& source, CsvTable::Parts& parts) {
+void settle_time(const ColumnSource& source, CsvTable& table) {
   if (!source.time) return;
-  std::vector<double>& t_s = parts.columns.at(source.column.name).values;
+  std::vector<double>& t_s = table.columns.at(source.column.name).values;
   const double first = t_s.empty() ? 0.0 : t_s.front();
   const bool is_clock = std::abs(first) >= kClockTime_s || source.time->is_date;
   if (is_clock) {
     for (double& t : t_s) t -= first;
-    parts.clock_s = first;
+    table.clock_s = first;
   }
-  parts.notes.push_back({0, "time-column",
+  table.notes.push_back({0, "time-column",
                          fmt::format("t_s is taken from {}{}", source.time->meaning,
                                      is_clock ? ", counted from the first row" : "")});
 }
@@ -228,10 +228,10 @@ void find_empty_cells(const ColumnSource& source, FaultList& faults) {
 }
 
 /// Removes kOptional columns without any value.
-void drop_void_columns(CsvTable::Parts& parts, const ColumnSources& sources) {
+void drop_void_columns(CsvTable& table, const ColumnSources& sources) {
   for (const ColumnSource& source : sources.found) {
     if (source.column.empty != EmptyCells::kOptional) continue;
-    if (is_void(parts.columns.at(source.column.name))) parts.columns.erase(source.column.name);
+    if (is_void(table.columns.at(source.column.name))) table.columns.erase(source.column.name);
   }
 }
 
@@ -241,7 +241,7 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
                           std::span<const ColumnMapping> mappings, std::vector<Fault> faults) {
   const bool sparse = is_sparse(raw, sources);
   FaultList list{raw, faults};
-  CsvTable::Parts parts{
+  CsvTable table{
       .file = raw.file, .header_line = raw.header_line, .mapped = std::move(raw.mapped)};
   const auto may_be_empty = [sparse](const ColumnSource& source) {
     return (sparse && has_own_rate(source)) || source.column.empty == EmptyCells::kOptional;
@@ -250,12 +250,12 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
   for (ColumnSource& source : sources.found) {
     if (!may_be_empty(source)) find_empty_cells(source, list);
     if (source.mapping != nullptr) {
-      parts.mapped.push_back(static_cast<std::size_t>(source.mapping - mappings.data()));
+      table.mapped.push_back(static_cast<std::size_t>(source.mapping - mappings.data()));
     } else if (!may_be_empty(source) && !source.expression) {
       continue;
     }
     for (const std::size_t index : source.indices) --uses[index];
-    parts.columns.emplace(source.column.name,
+    table.columns.emplace(source.column.name,
                           column_of(source, uses, may_be_empty(source), raw, list));
   }
   // Columns that are used unchanged are moved out of `raw` last: the columns above are computed
@@ -263,26 +263,26 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
   for (const ColumnSource& source : sources.found) {
     if (source.mapping != nullptr || source.expression || may_be_empty(source)) continue;
     RawColumn& column = raw.columns[source.indices.front()];
-    parts.columns.emplace(source.column.name,
+    table.columns.emplace(source.column.name,
                           CsvTable::Column{.values = std::move(column.value),
                                            .character = std::move(column.character)});
   }
-  drop_void_columns(parts, sources);
-  parts.lines = std::move(raw.lines);
-  parts.notes = std::move(raw.notes);
+  drop_void_columns(table, sources);
+  table.lines = std::move(raw.lines);
+  table.notes = std::move(raw.notes);
   for (const ColumnSource& source : sources.found) {
-    settle_time(source, parts);
+    settle_time(source, table);
   }
-  if (sparse) refuse_void_columns(parts, sources, faults);
-  if (sparse && faults.empty()) drop_rows(parts, sources);
-  if (faults.empty() && parts.lines.empty()) {
-    faults.push_back({ErrorCode::kTooFewData, fmt::format("{}:{}:1", parts.file, parts.header_line),
+  if (sparse) refuse_void_columns(table, sources, faults);
+  if (sparse && faults.empty()) drop_rows(table, sources);
+  if (faults.empty() && table.lines.empty()) {
+    faults.push_back({ErrorCode::kTooFewData, table.header_place(),
                       sparse ? "no row has a value of a command or measurement; record these "
                                "signals, or map other columns"
                              : "there are no rows below the header; add at least one"});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
-  return CsvTable(std::move(parts));
+  return table;
 }
 
 }  // namespace awmr

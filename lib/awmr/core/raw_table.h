@@ -42,13 +42,13 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
 /// EmptyCells::kFault, csv.h), and all rows at the beginning of the log until each command (kHeld)
 /// has had its first value. Adds the note `joined-by-time` with the numbers of rows kept and
 /// dropped.
-void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources);
+void drop_rows(CsvTable& table, const ColumnSources& sources);
 
 /// True for a column that has no value in any row.
 bool is_void(const CsvTable::Column& column);
 /// Adds a fault for each requested column that is empty in all rows, except for columns that may be
 /// absent (EmptyCells::kOptional).
-void refuse_void_columns(const CsvTable::Parts& parts, const ColumnSources& sources,
+void refuse_void_columns(const CsvTable& table, const ColumnSources& sources,
                          std::vector<Fault>& faults);
 
 }  // namespace awmr

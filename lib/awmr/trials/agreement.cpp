@@ -31,7 +31,7 @@ double last_place(const CsvTable& table, std::string_view column,
                   std::span<const ColumnMapping> mappings) {
   double scale = 1.0;
   double offset = 0.0;
-  for (const std::size_t used : table.mapped()) {
+  for (const std::size_t used : table.mapped) {
     const ColumnMapping& mapping = mappings[used];
     if (mapping.name != column) continue;
     scale = mapping.scale;

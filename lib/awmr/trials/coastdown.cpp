@@ -67,7 +67,7 @@ void check_coastdown_columns(TrialReader& reader) {
 
 TrialSet<StopTimeRow> read_stop_times(TrialReader& reader, std::vector<Finding>& findings) {
   TrialSet<StopTimeRow> set{
-      .file = finding_file(reader.table()), .rows = {}, .mapped = reader.table().mapped()};
+      .file = finding_file(reader.table()), .rows = {}, .mapped = reader.table().mapped};
   std::vector<std::size_t> set_aside;
   std::vector<std::size_t> kept;
   const double timing_s = timing_std_s(reader.last_place("stop_time_s"));
@@ -100,14 +100,14 @@ CoastCurve new_curve(const TrialReader& reader, std::size_t row) {
           .line = reader.table().line(row),
           .t_s = {},
           .speed_mps = {},
-          .mapped = reader.table().mapped()};
+          .mapped = reader.table().mapped};
 }
 
 void check_length(TrialReader& reader, const std::vector<CoastCurve>& curves) {
   for (const CoastCurve& curve : curves) {
     if (curve.t_s.size() >= kShortestCurve) continue;
     reader.faults().push_back({ErrorCode::kTooFewData,
-                               fmt::format("{}:{}:1", reader.table().file(), curve.line),
+                               fmt::format("{}:{}:1", reader.table().file, curve.line),
                                fmt::format("this coast-down has {} speeds; record at least {}",
                                            curve.t_s.size(), kShortestCurve)});
   }

@@ -103,7 +103,7 @@ Topic topic_of(const CsvTable& table, const std::string& column, std::size_t pla
   const std::span<const double> t_s = table.column(kTimeName);
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (!present.empty() && !present[row]) continue;
-    topic.time_ns.push_back(std::llround(1e9 * (t_s[row] + table.clock_s())));
+    topic.time_ns.push_back(std::llround(1e9 * (t_s[row] + table.clock_s)));
     topic.values[0].push_back(table.column(column)[row]);
   }
   return topic;
@@ -113,7 +113,7 @@ Topic topic_of(const CsvTable& table, const std::string& column, std::size_t pla
 Status check_time(const CsvTable& table) {
   constexpr double kMax_s = 9e9;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (std::abs(table.column(kTimeName)[row] + table.clock_s()) > kMax_s) {
+    if (std::abs(table.column(kTimeName)[row] + table.clock_s) > kMax_s) {
       return input_error(ErrorCode::kOutOfRange, table.place(row, kTimeName),
                          "too large for a time in seconds; convert it with a mapping of t_s");
     }
@@ -145,13 +145,13 @@ Status add_file(const File& file, const std::map<std::string, int>& counts,
   for (std::size_t i = 0; i < places.size(); ++i) {
     topics.signals.topics.push_back(topic_of(table, requested[i + 1].name, places[i]));
   }
-  for (const std::size_t used : table.mapped()) topics.mapped.push_back(times.places[used]);
-  for (const CsvNote& note : table.notes()) {
+  for (const std::size_t used : table.mapped) topics.mapped.push_back(times.places[used]);
+  for (const CsvNote& note : table.notes) {
     if (note.code == "joined-by-time") continue;
     topics.signals.notes.push_back({note.line, note.code, file.stem + ": " + note.message});
   }
   const std::span<const double> t_s = table.column(kTimeName);
-  spans.push_back({&file, t_s.front() + table.clock_s(), t_s.back() + table.clock_s()});
+  spans.push_back({&file, t_s.front() + table.clock_s, t_s.back() + table.clock_s});
   return {};
 }
 

@@ -49,7 +49,7 @@ Result<FieldRecord> read_field(const std::filesystem::path& path,
                                const std::vector<ColumnMapping>& mappings) {
   AWMR_RETURN_IF_ERROR(check_names(mappings));
   AWMR_ASSIGN_OR_RETURN(const CsvTable table, read_csv(path, field_columns(), mappings));
-  AWMR_RETURN_IF_ERROR(check_mappings({.columns = mappings}, table.mapped(), {{path}}));
+  AWMR_RETURN_IF_ERROR(check_mappings({.columns = mappings}, table.mapped, {{path}}));
   FieldRecord record{.file = path.filename().string(),
                      .t_s = values_of(table, "t_s"),
                      .ahead = values_of(table, "field_ahead"),

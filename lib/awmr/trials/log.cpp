@@ -276,7 +276,7 @@ DrivingLog commands_of(TrialReader& reader, RowSpan rows) {
   const CsvTable& table = reader.table();
   DrivingLog log;
   log.file = finding_file(table);
-  log.mapped = table.mapped();
+  log.mapped = table.mapped;
   log.joined = is_joined(table);
   log.line.reserve(rows.end - rows.begin);
   for (std::size_t row = rows.begin; row < rows.end; ++row) log.line.push_back(table.line(row));

@@ -42,7 +42,7 @@ struct TrialOptions {
   std::vector<Interval> excluded_s = {};
 };
 
-/// Each function reads one table. Findings: the notes of CsvTable::notes(), `speed-mismatch`,
+/// Each function reads one table. Findings: the notes of CsvTable::notes, `speed-mismatch`,
 /// `tau-speed-mismatch`, `yaw-rate-mismatch`, `tau-turn-mismatch`, `steering-stop`,
 /// `turned-by-sides`, `rows-set-aside`, `repeated-rows`. Errors: those of read_csv(); missing
 /// columns, or columns that exclude each other; a negative force, speed, time or distance
@@ -60,7 +60,7 @@ Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const Tri
 /// channel of log.h other than steering_deg. A vehicle with steering also needs steering_cmd_deg or
 /// steering_deg. latitude_deg and longitude_deg may replace x_m and y_m. x is then east and y
 /// north, in the local tangent plane at the first row used of each run. Findings: the notes of
-/// CsvTable::notes(), those of log_channels.h, `constant-channel`, `course-at-rest`. Errors: those
+/// CsvTable::notes, those of log_channels.h, `constant-channel`, `course-at-rest`. Errors: those
 /// of read_csv(); missing or contradictory columns; a latitude or longitude out of range; times
 /// that do not rise; fewer than 10 rows; no row left by used_s and excluded_s of the options; more
 /// than one run.

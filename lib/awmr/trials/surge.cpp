@@ -61,7 +61,7 @@ Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
   check_surge_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
-  TrialSet<SurgeRow> set{finding_file(reader.table()), {}, 0, reader.table().mapped()};
+  TrialSet<SurgeRow> set{finding_file(reader.table()), {}, 0, reader.table().mapped};
   set.force_column = reader.has("tau_speed") ? "tau_speed" : "wheel_force";
   note_format(reader, findings);
   std::vector<std::size_t> set_aside;

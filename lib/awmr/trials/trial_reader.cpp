@@ -108,7 +108,7 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
 }
 
 void note_format(const TrialReader& reader, std::vector<Finding>& findings) {
-  for (const CsvNote& note : reader.table().notes()) {
+  for (const CsvNote& note : reader.table().notes) {
     findings.push_back(
         {finding_file(reader.table()), note.line, Severity::kNote, note.code, note.message});
   }

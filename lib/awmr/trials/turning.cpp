@@ -292,7 +292,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   check_turning_columns(reader, vehicle);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 
-  TrialSet<TurningRow> set{finding_file(reader.table()), {}, 0, reader.table().mapped()};
+  TrialSet<TurningRow> set{finding_file(reader.table()), {}, 0, reader.table().mapped};
   set.force_column = "wheel_force";
   const bool is_timed = reader.has("turns") && reader.has("elapsed_s");
   const bool takes_timed = is_timed && options.preference == Preference::kTimed;
