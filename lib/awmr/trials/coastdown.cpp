@@ -177,9 +177,8 @@ std::vector<CoastCurve> read_curves(TrialReader& reader, std::vector<Finding>& f
 
 Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const TrialOptions& options,
                                     std::vector<Finding>& findings) {
-  auto table = read_table(path, TrialKind::kCoastdown, options);
-  if (!table) return tl::unexpected(table.error());
-  TrialReader reader(std::move(*table), options);
+  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, TrialKind::kCoastdown, options));
+  TrialReader reader(std::move(table), options);
   check_coastdown_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
 

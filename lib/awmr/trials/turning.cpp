@@ -256,8 +256,7 @@ std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const V
   const auto printed = printed_yaw_rate(reader, row, *turn);
   const auto rate = rate_of(reader, row, kTurningRate, printed, preference, findings);
   if (!rate) return std::nullopt;
-  if (!turn->sides && vehicle.has_steering())
-    check_stop(reader, row, vehicle, turn->left, findings);
+  if (!turn->sides) check_stop(reader, row, vehicle, turn->left, findings);
   return TurningRow{.line = reader.table().line(row),
                     .steering_rad = turn->steering_rad,
                     .wheel_force = turn->wheel_force,
