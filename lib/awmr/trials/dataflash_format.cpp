@@ -95,18 +95,14 @@ std::optional<std::int64_t> nanoseconds(const Format& format, std::uint64_t tick
 ListedTopic list_topic(const Format& format, std::uint8_t sensor, const Wanted& wanted,
                        Signals& signals) {
   ListedTopic listed{.topic = signals.topics.size()};
-  Topic topic{.name = format.name};
-  if (sensor != 0) topic.name += fmt::format("[{}]", sensor);
+  const std::string topic =
+      format.name + (sensor == 0 ? std::string() : fmt::format("[{}]", sensor));
+  signals.topics.push_back({.name = topic});
   for (std::size_t i = 0; i < format.fields.size(); ++i) {
     const Field& field = format.fields[i];
     if (i == *format.time || i == format.instance || field.kind->read == nullptr) continue;
-    const std::string& name = signals.header.emplace_back(topic.name + "." + field.name);
-    if (!wanted(name)) continue;
-    topic.columns.push_back(signals.header.size() - 1);
-    topic.values.emplace_back();
-    listed.fields.push_back(i);
+    if (add_signal(topic + "." + field.name, wanted, signals)) listed.fields.push_back(i);
   }
-  signals.topics.push_back(std::move(topic));
   return listed;
 }
 

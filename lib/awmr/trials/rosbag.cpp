@@ -100,14 +100,10 @@ Result<std::vector<BagTopic>> topics_of(sqlite3* database, const std::string& fi
 /// as indices into `fields`.
 std::vector<std::size_t> list(const BagTopic& bag, const std::vector<std::string>& fields,
                               const Wanted& wanted, Signals& signals) {
-  Topic& topic = signals.topics.emplace_back(Topic{.name = bag.name});
+  signals.topics.push_back({.name = bag.name});
   std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    const std::string& name = signals.header.emplace_back(bag.name + "." + fields[i]);
-    if (!wanted(name)) continue;
-    topic.columns.push_back(signals.header.size() - 1);
-    topic.values.emplace_back();
-    numbers.push_back(i);
+    if (add_signal(bag.name + "." + fields[i], wanted, signals)) numbers.push_back(i);
   }
   return numbers;
 }

@@ -81,6 +81,14 @@ void note_missing(const Topic& topic, const Signals& signals, std::vector<CsvNot
 
 }  // namespace
 
+bool add_signal(std::string name, const Wanted& wanted, Signals& signals) {
+  signals.header.push_back(std::move(name));
+  if (!wanted(signals.header.back())) return false;
+  signals.topics.back().columns.push_back(signals.header.size() - 1);
+  signals.topics.back().values.emplace_back();
+  return true;
+}
+
 Result<RawTable> join(Signals signals, const std::string& file) {
   RawTable raw{.file = file, .joined = true};
   raw.notes = std::move(signals.notes);

@@ -32,6 +32,10 @@ struct Signals {
 /// Function that selects signals: true if the values of the signal `name` are requested.
 using Wanted = std::function<bool(const std::string& name)>;
 
+/// Adds a signal with this name to the last topic of `signals`. Returns true if its values are
+/// requested; the topic then has a column for them.
+bool add_signal(std::string name, const Wanted& wanted, Signals& signals);
+
 /// Maximum number of signals per file.
 inline constexpr std::size_t kMaxSignals = 200'000;
 

@@ -48,17 +48,14 @@ Status subscribe(ByteReader message, std::size_t offset, Reading& reading) {
   auto layout = ulog::layout_of(*name, reading.formats);
   if (!layout) return wrong(reading, offset, layout.error());
   Subscription subscription{.needed = layout->needed, .topic = reading.signals.topics.size()};
-  Topic& added = reading.signals.topics.emplace_back(Topic{.name = topic});
+  reading.signals.topics.push_back({.name = topic});
   for (ulog::Leaf& leaf : layout->leaves) {
     if (leaf.name == "timestamp" && leaf.type->name == "uint64_t")
       subscription.time_offset = leaf.offset;
   }
   if (subscription.time_offset) {
     for (ulog::Leaf& leaf : layout->leaves) {
-      const std::string& signal = reading.signals.header.emplace_back(topic + "." + leaf.name);
-      if (!reading.wanted(signal)) continue;
-      added.columns.push_back(reading.signals.header.size() - 1);
-      added.values.emplace_back();
+      if (!add_signal(topic + "." + leaf.name, reading.wanted, reading.signals)) continue;
       subscription.wanted.push_back(std::move(leaf));
     }
   }
