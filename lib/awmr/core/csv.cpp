@@ -264,13 +264,10 @@ const std::vector<bool>& CsvTable::present(std::string_view column) const {
 std::string CsvTable::place(std::size_t row, std::string_view column) const {
   const auto found = columns.find(column);
   const bool is_known = found != columns.end() && !found->second.character.empty();
-  return fmt::format("{}:{}:{}", file, line(row),
-                     is_known ? found->second.character[row] : 1);
+  return fmt::format("{}:{}:{}", file, line(row), is_known ? found->second.character[row] : 1);
 }
 
-std::string CsvTable::header_place() const {
-  return fmt::format("{}:{}:1", file, header_line);
-}
+std::string CsvTable::header_place() const { return fmt::format("{}:{}:1", file, header_line); }
 
 std::string finding_file(const CsvTable& table) {
   return std::filesystem::path(table.file).filename().string();

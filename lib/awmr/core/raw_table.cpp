@@ -241,8 +241,7 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
                           std::span<const ColumnMapping> mappings, std::vector<Fault> faults) {
   const bool sparse = is_sparse(raw, sources);
   FaultList list{raw, faults};
-  CsvTable table{
-      .file = raw.file, .header_line = raw.header_line, .mapped = std::move(raw.mapped)};
+  CsvTable table{.file = raw.file, .header_line = raw.header_line, .mapped = std::move(raw.mapped)};
   const auto may_be_empty = [sparse](const ColumnSource& source) {
     return (sparse && has_own_rate(source)) || source.column.empty == EmptyCells::kOptional;
   };

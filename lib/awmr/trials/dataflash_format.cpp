@@ -23,14 +23,27 @@ constexpr FieldKind skipped(char character, std::size_t bytes) {
 }
 
 /// Kinds c, C, e and E are hundredths; L is 1e-7 degrees.
-constexpr std::array<FieldKind, 21> kKinds{
-    number_kind<std::int8_t>('b'),        number_kind<std::uint8_t>('B'),        number_kind<std::uint8_t>('M'),
-    number_kind<std::int16_t>('h'),       number_kind<std::uint16_t>('H'),       number_kind<std::int32_t>('i'),
-    number_kind<std::uint32_t>('I'),      number_kind<std::int64_t>('q'),        number_kind<std::uint64_t>('Q'),
-    number_kind<float>('f'),              number_kind<double>('d'),              number_kind<std::int16_t>('c', 0.01),
-    number_kind<std::uint16_t>('C', 0.01), number_kind<std::int32_t>('e', 0.01), number_kind<std::uint32_t>('E', 0.01),
-    number_kind<std::int32_t>('L', 1e-7), skipped('a', 64),               skipped('n', 4),
-    skipped('N', 16),              skipped('Z', 64),               skipped('g', 2)};
+constexpr std::array<FieldKind, 21> kKinds{number_kind<std::int8_t>('b'),
+                                           number_kind<std::uint8_t>('B'),
+                                           number_kind<std::uint8_t>('M'),
+                                           number_kind<std::int16_t>('h'),
+                                           number_kind<std::uint16_t>('H'),
+                                           number_kind<std::int32_t>('i'),
+                                           number_kind<std::uint32_t>('I'),
+                                           number_kind<std::int64_t>('q'),
+                                           number_kind<std::uint64_t>('Q'),
+                                           number_kind<float>('f'),
+                                           number_kind<double>('d'),
+                                           number_kind<std::int16_t>('c', 0.01),
+                                           number_kind<std::uint16_t>('C', 0.01),
+                                           number_kind<std::int32_t>('e', 0.01),
+                                           number_kind<std::uint32_t>('E', 0.01),
+                                           number_kind<std::int32_t>('L', 1e-7),
+                                           skipped('a', 64),
+                                           skipped('n', 4),
+                                           skipped('N', 16),
+                                           skipped('Z', 64),
+                                           skipped('g', 2)};
 
 const FieldKind* kind_of(char character) {
   for (const FieldKind& kind : kKinds) {
@@ -61,8 +74,7 @@ tl::expected<Format, std::string> format_of(std::string_view bytes) {
                 .bytes = static_cast<unsigned char>(bytes[1])};
   const std::string characters = text_of(bytes.substr(6, 16));
   const std::string labels = text_of(bytes.substr(22, 64));
-  const auto names =
-      labels.empty() ? std::vector<std::string_view>() : split_at_commas(labels);
+  const auto names = labels.empty() ? std::vector<std::string_view>() : split_at_commas(labels);
   const std::string shown = printable(format.name);
   if (names.size() != characters.size()) {
     return tl::unexpected(

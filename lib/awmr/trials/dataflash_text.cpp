@@ -180,7 +180,8 @@ std::optional<std::int64_t> time_of_line(const Cells& cells, const dataflash::Fo
 }
 
 Status take_line(const Cells& cells, int line, const std::string& file,
-                 const dataflash::Format& format, const dataflash::ListedTopic& listed, Topic& topic) {
+                 const dataflash::Format& format, const dataflash::ListedTopic& listed,
+                 Topic& topic) {
   const auto time_ns = time_of_line(cells, format);
   if (!time_ns) {
     return error_at(file, line,

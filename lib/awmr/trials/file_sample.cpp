@@ -2,8 +2,8 @@
 #include <system_error>
 #include <utility>
 
-#include "awmr/core/csv_cell.h"
 #include "awmr/core/csv.h"
+#include "awmr/core/csv_cell.h"
 #include "awmr/core/input_file.h"
 #include "awmr/trials/column_guess.h"
 #include "awmr/trials/log_files.h"

@@ -52,8 +52,7 @@ Status check_consistency(const DrivingLog& log, const std::string& place, const 
          fmt::format("yaw_rate_radps differs by {:.3g} +- {:.2g} rad/s from the rate of change of "
                      "the heading: the gyroscope has a bias. The fit estimates this bias, as with "
                      "{}; to avoid it, let the gyroscope settle at rest before a drive",
-                     bias->value, bias->std_error,
-                     option_text("fit bias.yaw_rate_radps"))});
+                     bias->value, bias->std_error, option_text("fit bias.yaw_rate_radps"))});
   }
   return {};
 }

@@ -274,8 +274,7 @@ std::optional<Contradiction> check_speed(const Evidence& evidence) {
   }
   return Contradiction{
       "speed_mps",
-      compared + ", which no known unit explains" + words_of_wheel(*ratio, evidence.vehicle),
-      "",
+      compared + ", which no known unit explains" + words_of_wheel(*ratio, evidence.vehicle), "",
       "compare the units of speed_mps, x_m, y_m and t_s with the sensors' data "
       "sheets"};
 }

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "awmr/core/column_sources.h"
+#include "awmr/core/csv.h"
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/csv_scanner.h"
-#include "awmr/core/csv.h"
 #include "awmr/core/decimal_comma.h"
 #include "awmr/core/text.h"
 #include "awmr/trials/trial_columns.h"

@@ -197,11 +197,8 @@ SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const Stea
     if (run->turning) {
       runs.turning.rows.push_back(turning_row(*run, vehicle));
     } else {
-      runs.surge.rows.push_back({run->line,
-                                 vehicle.driven_wheels() * run->wheel_force,
-                                 run->mean_rate,
-                                 {},
-                                 {}});
+      runs.surge.rows.push_back(
+          {run->line, vehicle.driven_wheels() * run->wheel_force, run->mean_rate, {}, {}});
     }
     findings.push_back(note_of(*run, vehicle, log.file));
   }

@@ -42,7 +42,8 @@ constexpr Interval kMeanDeceleration_mps2{0.01, 20.0};
 /// unit whose `times` differs from every ratio by less than 10 %. Null without such a unit, or with
 /// fewer than two ratios.
 template <std::size_t N>
-const ColumnUnit* unit_of(const std::vector<double>& ratios, const std::array<ColumnUnit, N>& units) {
+const ColumnUnit* unit_of(const std::vector<double>& ratios,
+                          const std::array<ColumnUnit, N>& units) {
   for (const ColumnUnit& unit : units) {
     const bool all = std::all_of(ratios.begin(), ratios.end(), [&](double ratio) {
       return std::abs(ratio / unit.times - 1.0) < 0.1;
@@ -136,7 +137,8 @@ std::string lengths_text(double speed_mps, const Vehicle& vehicle) {
 std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehicle& vehicle) {
   if (surge.rows.empty()) return std::nullopt;
   const SurgeRow& first = surge.rows.front();
-  const std::vector<double> ratios = printed_over_timed(surge.rows, &SurgeRow::speed_mps, &SurgeRow::distance_m, 1.0);
+  const std::vector<double> ratios =
+      printed_over_timed(surge.rows, &SurgeRow::speed_mps, &SurgeRow::distance_m, 1.0);
   const double speed_mps = fastest(surge.rows, &SurgeRow::speed_mps);
   const double lengths = speed_mps / vehicle.length_m;
   if (const ColumnUnit* unit = unit_of(ratios, kTableSpeedUnits)) {
@@ -168,8 +170,8 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehic
 std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning) {
   if (turning.rows.empty()) return std::nullopt;
   const TurningRow& first = turning.rows.front();
-  const std::vector<double> ratios = printed_over_timed(
-      turning.rows, &TurningRow::yaw_rate_radps, &TurningRow::turns, 2.0 * pi<double>());
+  const std::vector<double> ratios = printed_over_timed(turning.rows, &TurningRow::yaw_rate_radps,
+                                                        &TurningRow::turns, 2.0 * pi<double>());
   if (const ColumnUnit* unit = unit_of(ratios, kTableTurnUnits)) {
     return wrong(first.line,
                  fmt::format("yaw_rate_radps is {:.3g} times 2 pi turns/elapsed_s: {}",

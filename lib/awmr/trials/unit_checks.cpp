@@ -41,9 +41,9 @@ std::optional<Contradiction> check_time(const Evidence& evidence) {
   constexpr double kOften = 0.05;
   if (step_s >= kFastest_s || ratio >= kOften) return std::nullopt;
   static constexpr std::array<UnitFactor, 4> kLong{{{1.0 / 60.0, "minutes"},
-                                                  {1e-3, "thousands of seconds"},
-                                                  {1.0 / 3600.0, "hours"},
-                                                  {1.0 / 86400.0, "days"}}};
+                                                    {1e-3, "thousands of seconds"},
+                                                    {1.0 / 3600.0, "hours"},
+                                                    {1.0 / 86400.0, "days"}}};
   const UnitFactor& nearest = *std::ranges::min_element(
       kLong, {}, [&](const UnitFactor& one) { return std::abs(std::log(ratio / one.factor)); });
   return time_in(nearest, evidence);

@@ -11,16 +11,17 @@ std::string mapped_by(std::span<const UnitFix> unit_fixes, std::span<const Colum
                       bool in_doubt) {
   std::string text;
   for (const UnitFix& unit_fix : unit_fixes) {
-    text += fmt::format(
-        "{}with {}", text.empty() ? "map it " : " or ",
-        mapping_option(mappings, unit_fix.column, unit_fix.factor, unit_fix.offset));
+    text +=
+        fmt::format("{}with {}", text.empty() ? "map it " : " or ",
+                    mapping_option(mappings, unit_fix.column, unit_fix.factor, unit_fix.offset));
     if (in_doubt || unit_fixes.size() > 1) text += fmt::format(" ({})", unit_fix.words);
   }
   return text;
 }
 
 std::string words_of(std::span<const UnitFix> unit_fixes) {
-  return enumerated(unit_fixes, [](const UnitFix& fix) { return fix.words; }, " or ");
+  return enumerated(
+      unit_fixes, [](const UnitFix& fix) { return fix.words; }, " or ");
 }
 
 }  // namespace awmr
