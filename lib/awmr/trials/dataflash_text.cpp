@@ -1,4 +1,5 @@
-// The text form of ArduPilot's DataFlash logs has one record per line. The values are already scaled.
+// The text form of ArduPilot's DataFlash logs has one record per line. Its values are already
+// scaled.
 //
 //     FMT, 129, 31, ATT, QffBB, TimeUS,Roll,Yaw,NSats,I
 //     ATT, 1000000, 0.5, 91.25, 8, 0

@@ -60,6 +60,7 @@ struct SysIdRow {
   bool is_drivetrain;
 };
 
+/// The kinds of rows, as described above.
 const std::array<SysIdRow, 3>& sysid_rows() {
   static const std::array<SysIdRow, 3> kRows{{{.numbers = 9,
                                                .fields = {{1, "left_volts"},

@@ -79,7 +79,7 @@ double fastest(const std::vector<Row>& rows, double Row::*rate) {
   return most;
 }
 
-/// Ratios of the printed rate to the timed one, unit * amount/elapsed_s, of the rows that have both.
+/// Ratios of the printed rate to the timed one, unit * amount/elapsed_s, in rows that have both.
 template <class Row>
 std::vector<double> printed_over_timed(const std::vector<Row>& rows, double Row::*printed,
                                        std::optional<double> Row::*amount, double unit) {

@@ -1,5 +1,5 @@
-/// Detects wrong units in tables of runs by comparing speeds, yaw rates and times with the ranges in
-/// CHECKS.md, "Implausible tables". Private to this folder.
+/// Detects wrong units in tables of runs by comparing speeds, yaw rates and times with the ranges
+/// in CHECKS.md, "Implausible tables". Private to this folder.
 #pragma once
 
 #include <optional>

@@ -19,9 +19,10 @@ namespace awmr {
 namespace {
 
 /// Largest accepted ratio of the yaw rate to that of rolling wheels. In a turn, wheels roll no
-/// faster than straight ahead with the same force, and the wheelbase is longer than l_f. Steered turns: 3, because the
-/// vehicle may drift, or steer its rear wheels in addition to the front wheels. Differential turns:
-/// 4, because two interpolated speeds determine the limit, which makes it less certain.
+/// faster than straight ahead with the same force, and the wheelbase is longer than l_f. Steered
+/// turns: 3, because the vehicle may drift, or steer its rear wheels in addition to the front
+/// wheels. Differential turns: 4, because two interpolated speeds determine the limit, which makes
+/// it less certain.
 constexpr double kMaxSteered = 3.0;
 constexpr double kMaxBySides = 4.0;
 /// Smallest accepted ratio of the yaw rate to that of rolling wheels, for the row with the largest
@@ -149,8 +150,9 @@ std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& 
 }
 
 /// Yaw rate of a differential turn, divided by that of rolling wheels, (u(n F'R) - u(n F'L))/(2 d).
-/// Empty if one of the speeds is unknown. Scatter of the surge runs may make the curve u(tau) too flat between
-/// the two forces, so the slope there counts as at least half of the mean slope from the origin.
+/// Empty if one of the speeds is unknown. Scatter of the surge runs may make the curve u(tau) too
+/// flat between the two forces, so the slope there counts as at least half of the mean slope from
+/// the origin.
 std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& speed,
                                     const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();

@@ -20,8 +20,8 @@ std::string mapped_by(std::span<const UnitFix> unit_fixes, std::span<const Colum
 }
 
 std::string words_of(std::span<const UnitFix> unit_fixes) {
-  return enumerated(
-      unit_fixes, [](const UnitFix& fix) { return fix.words; }, " or ");
+  const auto words = [](const UnitFix& unit_fix) { return unit_fix.words; };
+  return enumerated(unit_fixes, words, " or ");
 }
 
 }  // namespace awmr
