@@ -153,8 +153,12 @@ State<T> earlier_state(const LogSignals& signals, std::size_t begin,
   const T to_s = T(now_s) - delay_s;
   if (value_of(to_s) < log.t_s[row]) {
     const double at_s = log.t_s[row] - (input_delay_s ? value_of(*input_delay_s) : 0.0);
-    const SideForces<T> force{T(signals.left.at(at_s)), T(signals.right.at(at_s))};
-    const T steering = log.steering_command_rad ? T(signals.steering.at(at_s)) : state.steering_rad;
+    // The commands are those of the last row that is not after `at_s`.
+    const auto after = std::ranges::upper_bound(log.t_s, at_s) - log.t_s.begin();
+    const std::size_t acting = after == 0 ? 0 : static_cast<std::size_t>(after) - 1;
+    const SideForces<T> force{T(log.force_left[acting]), T(log.force_right[acting])};
+    const T steering =
+        log.steering_command_rad ? T((*log.steering_command_rad)[acting]) : state.steering_rad;
     return moved(state, step.rates(state, force, steering), T(to_s - log.t_s[row]));
   }
   return advance_after_row(signals, row, T(log.t_s[row]), to_s, step.plant(), input_delay_s,

@@ -19,23 +19,19 @@ class HeldSignal {
   /// Integral from the time of the log's first row to t_s. Before the first row the command has its
   /// first value, after the last row its last value.
   double integral(double t_s) const;
-  double at(double t_s) const;
 
  private:
-  std::size_t row_at(double t_s) const;
   const std::vector<double>* t_s_;
   const std::vector<double>* value_;
   std::vector<double> integral_;
 };
 
-/// The three commands of a log: left force, right force and steering.
+/// The commands of a log.
 struct LogSignals {
   explicit LogSignals(const DrivingLog& log);
   const DrivingLog* log;
-  HeldSignal left;
-  HeldSignal right;
-  /// Steering command, rad; the steering angle if the log has no steering command.
-  HeldSignal steering;
+  HeldSignal left;   ///< force_left
+  HeldSignal right;  ///< force_right
 
   /// The logged steering angle, rad, interpolated between `row` and the next row. `share`: fraction
   /// of the time between these rows that has passed, 0 to 1. Precondition: the log has steering

@@ -112,23 +112,17 @@ HeldSignal::HeldSignal(const std::vector<double>& t_s, const std::vector<double>
   }
 }
 
-std::size_t HeldSignal::row_at(double t_s) const {
-  const auto after = std::upper_bound(t_s_->begin(), t_s_->end(), t_s);
-  return after == t_s_->begin() ? 0 : static_cast<std::size_t>(after - t_s_->begin()) - 1;
-}
-
 double HeldSignal::integral(double t_s) const {
-  const std::size_t row = row_at(t_s);
+  const auto after = std::upper_bound(t_s_->begin(), t_s_->end(), t_s);
+  const std::size_t row =
+      after == t_s_->begin() ? 0 : static_cast<std::size_t>(after - t_s_->begin()) - 1;
   return integral_[row] + (*value_)[row] * (t_s - (*t_s_)[row]);
 }
-
-double HeldSignal::at(double t_s) const { return (*value_)[row_at(t_s)]; }
 
 LogSignals::LogSignals(const DrivingLog& driving_log)
     : log(&driving_log),
       left(driving_log.t_s, driving_log.force_left),
-      right(driving_log.t_s, driving_log.force_right),
-      steering(driving_log.t_s, driving_log.driving_steering_rad()) {}
+      right(driving_log.t_s, driving_log.force_right) {}
 
 bool is_measurement(const DrivingLog& log, LogChannel channel, std::size_t row) {
   if (!log[channel] || !log[channel]->fresh[row]) return false;
