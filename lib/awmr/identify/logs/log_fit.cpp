@@ -149,6 +149,7 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
   const std::vector<WindowErrors> errors = errors_at(problem, solved.point);
   return {.quantities = quantities,
           .coordinates = coordinates,
+          .initial_states = solved.point.initial_states,
           .covariance = found.covariance,
           .refusal_reason = found.refusal_reason,
           .noise = problem.model.noise,

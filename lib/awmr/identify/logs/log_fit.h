@@ -20,6 +20,8 @@ namespace awmr {
 struct LogFit {
   std::vector<FreeQuantity> quantities;
   std::vector<double> coordinates;  ///< one per quantity: its value, or the logarithm of it
+  /// Initial states of all windows at the optimum (SearchPoint::initial_states).
+  std::vector<double> initial_states;
   Eigen::MatrixXd covariance;  ///< covariance of the coordinates; large variance: not identified
   /// One per quantity; empty text: the quantity is identified.
   std::vector<std::string> refusal_reason;

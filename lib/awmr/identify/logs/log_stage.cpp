@@ -16,6 +16,7 @@
 #include "awmr/identify/logs/changes_between_rows.h"
 #include "awmr/identify/logs/command_findings.h"
 #include "awmr/identify/logs/force_findings.h"
+#include "awmr/identify/logs/gyro_scale.h"
 #include "awmr/identify/logs/inertia_check.h"
 #include "awmr/identify/logs/interpolated_commands.h"
 #include "awmr/identify/logs/log_report.h"
@@ -312,6 +313,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   if (!has_changed) compare_parts(logs, chosen, stage);
   withdraw_by_stribeck(chosen.fit);
   widen_by_steering_scale(logs, chosen);
+  if (const auto open = widen_by_gyro_scale(logs, chosen)) stage.findings.push_back(*open);
   withdraw_by_curve(chosen.fit);
   if (stage.withdraws_intervals) withdraw_intervals(chosen.fit.report);
   stage.reports[stage.chosen_report] = chosen.fit.report;

@@ -13,6 +13,7 @@
 #include "awmr/identify/logs/log_report.h"
 #include "awmr/identify/logs/score_test.h"
 #include "awmr/identify/logs/term_trials.h"
+#include "awmr/identify/logs/widening.h"
 
 namespace awmr {
 namespace {
@@ -86,20 +87,6 @@ FamilyFit fit_with_scale(const std::vector<DrivingLog>& logs, const FamilyFit& c
   return fit_with(with_scaled_steering(logs, scale), options, chosen.surge, chosen.yaw);
 }
 
-/// Multiplies the standard error of quantity `i`, and the distances of the ends of its interval
-/// from the estimate (in the coordinate), by `factor`. A withdrawn interval stays withdrawn.
-void stretch_interval(std::size_t i, double factor, LogFit& fit) {
-  EstimatorParameter& parameter = fit.report.parameters[i];
-  if (parameter.std_error) *parameter.std_error *= factor;
-  if (!parameter.ci95) return;
-  const FreeQuantity& q = fit.quantities[i];
-  const double x = fit.coordinates[i];
-  for (double* const end : {&parameter.ci95->lo, &parameter.ci95->hi}) {
-    const double coordinate = to_coordinate(q.scale, *end);
-    *end = q.value(x + factor * (coordinate - x));
-  }
-}
-
 }  // namespace
 
 bool is_stop_reached(const LogProblem& problem, const SearchPoint& point) {
@@ -163,10 +150,8 @@ void widen_by_steering_scale(const std::vector<DrivingLog>& logs, FamilyFit& cho
     const Eigen::Index row = eigen_index(i);
     if (!fit.refusal_reason[i].empty()) continue;
     change(row) = share * (coordinate_of(other, fit.quantities[i].name()) - fit.coordinates[i]);
-    const double own = fit.covariance(row, row);
-    stretch_interval(i, std::sqrt(1.0 + change(row) * change(row) / own), fit);
   }
-  fit.covariance += change * change.transpose();
+  widen_by(change, fit);
 }
 
 bool is_much_curved(const LogFit& fit) {
