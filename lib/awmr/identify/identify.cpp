@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
 #include <utility>
 
 #include "awmr/core/option_text.h"
@@ -17,6 +18,7 @@
 #include "awmr/identify/tables/turn_sides.h"
 #include "awmr/identify/trials_as_used.h"
 #include "awmr/identify/uncertainty/akaike.h"
+#include "awmr/model/log_term_names.h"
 #include "awmr/model/plausibility.h"
 
 namespace awmr {
@@ -225,6 +227,18 @@ void identify_mass(const Vehicle& vehicle, const TrialData& data, const Identify
   reasons.curve_alone = mass.alone.has_value();
 }
 
+/// Removes `scale-mismatch` of each channel whose scale the log fit estimates (`sensor-scale`),
+/// because the fit estimates it more precisely.
+void drop_rough_scales(const EstimatorReport& fit, std::vector<Finding>& findings) {
+  for (const EstimatorParameter& parameter : fit.parameters) {
+    if (!parameter.name.starts_with(kSensorScalePrefix) || !parameter.std_error) continue;
+    const std::string column = parameter.name.substr(kSensorScalePrefix.size());
+    std::erase_if(findings, [&](const Finding& finding) {
+      return finding.code == "scale-mismatch" && finding.message.find(column) != std::string::npos;
+    });
+  }
+}
+
 Result<void> identify_from_logs(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options,
                                 const std::vector<ParameterId>& requested, MainValues& values,
@@ -233,6 +247,7 @@ Result<void> identify_from_logs(const Vehicle& vehicle, const TrialData& data,
   AWMR_ASSIGN_OR_RETURN(LogStage logs,
                         run_log_stage(vehicle, data.logs, options, requested, values.model,
                                       method_of(data, options) == Method::kTrajectory));
+  drop_rough_scales(logs.reports[logs.chosen_report], values.model.record.findings);
   record(logs, values.model);
   set_logs(logs, values);
   reasons.logs = std::move(logs.reasons);
