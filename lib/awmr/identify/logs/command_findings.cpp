@@ -54,7 +54,9 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
 
 /// Reports a motor lag, a dead time or late time stamps of the commands if the fit has found them.
 /// Otherwise, if at least two channels are measured and all of them have a latency, reports that
-/// actuators or commands are the likely common cause.
+/// actuators or commands are the likely common cause. A delay of the commands that changes between
+/// rows explain (LogFit::change_reach_s) is not reported: controllers change commands at regular
+/// times, so the mean time between two rows can differ from the middle.
 std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWhy =
       "actuator lag, command latency or a slew-rate limit. m', I'z and the sway resistance may be "
@@ -69,6 +71,7 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
   }
   const bool with_lag = has(fit.quantities, FreeQuantity::Kind::kMotorLag);
   for (const FoundTerm& input : found_terms(fit, FreeQuantity::Kind::kDelay)) {
+    if (std::abs(input.value) < fit.change_reach_s + 2.0 * input.error) continue;
     findings.push_back(dead_time_finding(input, with_lag, file));
   }
   if (!findings.empty()) return findings;

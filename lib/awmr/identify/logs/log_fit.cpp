@@ -134,6 +134,18 @@ std::vector<Interval> block_bootstrap(const BootstrapInput& input, int resamples
   return intervals;
 }
 
+/// LogFit::change_reach_s: the times are uniformly distributed, so that it is sqrt(3) times their
+/// standard deviation.
+double change_reach_s(const std::vector<FitWindow>& windows) {
+  double reach_s = 0.0;
+  for (const FitWindow& window : windows) {
+    for (const UncertainChange& change : window.changes) {
+      reach_s = std::max(reach_s, std::sqrt(3.0) * change.std_s);
+    }
+  }
+  return reach_s;
+}
+
 /// Returns the result of a fit whose search ended at `solved`. `sums`: sums of all windows there,
 /// all finite.
 LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector<WindowSums>& sums,
@@ -155,6 +167,7 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .noise = problem.model.noise,
           .change_cost = change_cost_of(errors),
           .change_times = change_times_of(errors),
+          .change_reach_s = change_reach_s(problem.windows),
           .errors = errors_by_channel(problem, errors, options.loss),
           .candidate_gain = candidate_gains(problem, solved.point, options.candidate_terms),
           .widened = found.widened(),

@@ -30,6 +30,10 @@ struct LogFit {
   double change_cost = 0.0;
   /// Likeliest times of these changes, all windows (WindowErrors::change_times).
   std::vector<double> change_times;
+  /// Largest distance, s, of a change of the commands at an uncertain time from its expected time;
+  /// 0 if all times are known. A delay of all commands up to this distance cannot be told from
+  /// such changes.
+  double change_reach_s = 0.0;
   ErrorsByChannel errors;  ///< model + bias - measured at the optimum, SI; not whitened
   /// One per term in LogFitOptions::candidate_terms: the decrease of -2 ln L, >= 0, that a score
   /// test predicts for a fit that also estimates this term.
