@@ -42,6 +42,8 @@ inline constexpr std::string_view kSensorDelayPrefix =
     "delay.";  ///< followed by the channel's column name
 inline constexpr std::string_view kSensorLagPrefix =
     "lag.";  ///< followed by the channel's column name
+inline constexpr std::string_view kLagDampingPrefix =
+    "lag_damping.";  ///< followed by the channel's column name
 inline constexpr std::string_view kSmoothingPrefix =
     "smoothing_s2.";  ///< followed by the channel's column name
 inline constexpr std::string_view kSensorScalePrefix =

@@ -39,9 +39,9 @@ bool is_estimated_name(std::string_view name) {
          name == kQuadraticOverSurgeName ||
          std::ranges::find(kExtraForceNames, name) != kExtraForceNames.end() ||
          name.starts_with(kBiasPrefix) || name.starts_with(kSensorDelayPrefix) ||
-         name.starts_with(kSensorLagPrefix) || name.starts_with(kSmoothingPrefix) ||
-         name.starts_with(kSensorScalePrefix) || name.starts_with(kSlipPrefix) ||
-         name.starts_with(kSlipRatioPrefix);
+         name.starts_with(kSensorLagPrefix) || name.starts_with(kLagDampingPrefix) ||
+         name.starts_with(kSmoothingPrefix) || name.starts_with(kSensorScalePrefix) ||
+         name.starts_with(kSlipPrefix) || name.starts_with(kSlipRatioPrefix);
 }
 
 int count(JsonObject& json, std::string_view key) {

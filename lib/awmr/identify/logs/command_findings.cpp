@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/identify/logs/force_findings.h"
@@ -111,15 +112,19 @@ std::string sensor_delay_text(const FoundTerm& delay, const LogFit&) {
       is_position ? "comes" : "is read", delay.value, delay.error);
 }
 
-std::string sensor_lag_text(const FoundTerm& lag, const LogFit&) {
+std::string sensor_lag_text(const FoundTerm& lag, const LogFit& fit) {
+  const auto damping = std::ranges::find(
+      fit.quantities, free_term(FreeQuantity::Kind::kLagDamping, lag.quantity.channel).name(),
+      &FreeQuantity::name);
   return fmt::format(
       "{} was low-pass filtered before it was logged, with a time constant of {:.3f} "
       "+- {:.3f} s{}. The fit estimates this time constant together with the parameters, "
       "which makes their intervals wider: for narrower intervals, log the unfiltered "
       "reading, or use a filter with a shorter time constant",
       info(lag.quantity.channel).name, lag.value, lag.error,
-      lag.quantity.damping > 0.0
-          ? fmt::format(" (second order, damping {:.2g})", lag.quantity.damping)
+      damping != fit.quantities.end()
+          ? fmt::format(" (second order, damping {:.2g})",
+                        fit.coordinates[at(damping - fit.quantities.begin())])
           : "");
 }
 

@@ -40,30 +40,46 @@ std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   return found;
 }
 
-/// Tries a low-pass filter in place of the delay of each channel in `lags_s`, with this delay as
-/// the initial guess of the time constant. `lowest` (here and below) keeps the best fit so far.
-/// Each channel gets four trials: a continuous filter, one with a step per row, and two of second
-/// order. The best trial is kept only if its AIC is lower than that of the best fit so far by more
-/// than kLikelierFilter.
+/// A filter is kept only if its AIC is lower than that of the best fit so far by more than this.
+constexpr double kLikelierFilter = 10.0;
+
+/// Tries a low-pass filter in place of the delay of each channel in `lags_s`, with the same delay as
+/// the initial guess. `lowest` (here and below) keeps the best fit so far. Each channel gets four
+/// trials: filters of first and of second order, both continuous or with a step per row.
 void consider_filters(const NoiseIteration& settled,
                       const std::vector<std::pair<LogChannel, double>>& lags_s, Loss loss,
                       LowestAic& lowest) {
-  constexpr double kLikelierFilter = 10.0;
-  constexpr double kButterworth = 0.70710678;
   // If the speed is the only channel, its filter has the same effect as a motor lag, which is more
   // common and therefore preferred.
   if (settled.problem.model.noise.size() <= 1) return;
   for (const auto& [channel, lag_s] : lags_s) {
     NoiseIteration best = tried(settled, {{sensor_lag_of(channel), lag_s}}, loss);
-    // A filter delays slow signals by T, or by 2 zeta T if it is of second order.
-    for (const FreeTerm& other :
-         {FreeTerm{sensor_lag_of(channel, true), lag_s},
-          FreeTerm{second_order_lag_of(channel, 1.0), lag_s / 2.0},
-          FreeTerm{second_order_lag_of(channel, kButterworth), lag_s / (2.0 * kButterworth)}}) {
-      NoiseIteration fit = tried(settled, {other}, loss);
+    for (const std::vector<FreeTerm>& other :
+         {std::vector<FreeTerm>{{sensor_lag_of(channel, true), lag_s}},
+          second_order_lag_of(channel, lag_s), second_order_lag_of(channel, lag_s, true)}) {
+      NoiseIteration fit = tried(settled, other, loss);
       if (akaike_of(fit) < akaike_of(best)) best = std::move(fit);
     }
     lowest.consider(std::move(best), kLikelierFilter);
+  }
+}
+
+/// Tries filters of second order of speed and yaw rate together in place of a delay of the commands
+/// of `delay_s`, because one program (an odometry or tracking filter) often computes both. A filter
+/// of only one of them cannot replace a delay that both show.
+void consider_filters_of_both(const NoiseIteration& settled, double delay_s, Loss loss,
+                              LowestAic& lowest) {
+  const LogModel& model = settled.problem.model;
+  for (const bool is_at_rows : {false, true}) {
+    std::vector<FreeTerm> terms;
+    for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
+      if (!model.noise.contains(channel)) return;
+      if (has_kind(model.quantities, FreeQuantity::Kind::kSensorLag, channel)) return;
+      for (const FreeTerm& term : second_order_lag_of(channel, delay_s, is_at_rows)) {
+        terms.push_back(term);
+      }
+    }
+    lowest.consider(tried(settled, terms, loss), kLikelierFilter);
   }
 }
 
@@ -207,6 +223,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   std::optional<NoiseIteration> strongest;
   bool has_sensor = false;
   std::vector<std::pair<LogChannel, double>> filters;
+  double delay_s = 0.0;
   const std::vector<CandidateTerm> terms = candidate_terms(settled);
   for (const CandidateTerm& candidate_term : terms) {
     if (lowest.best() && candidate_term.significance < kComparable * terms.front().significance)
@@ -224,12 +241,16 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     }
     has_sensor |= lowest.consider(std::move(fit)) && is_sensor;
     consider_slip_of_both(settled, terms, candidate_term, loss, lowest);
-    if (more.kind == FreeQuantity::Kind::kDelay) consider_motor_lag(settled, found_s, loss, lowest);
+    if (more.kind == FreeQuantity::Kind::kDelay) {
+      consider_motor_lag(settled, found_s, loss, lowest);
+      delay_s = found_s;
+    }
     if (found_s > 0.0 && is_sensor && is_often_filtered(more.channel)) {
       filters.emplace_back(more.channel, found_s);
     }
   }
   consider_filters(settled, filters, loss, lowest);
+  if (delay_s > 0.0) consider_filters_of_both(settled, delay_s, loss, lowest);
   auto smoothed = consider_smoothing(settled, terms, loss, lowest);
   if (!strongest && !terms.empty() && terms.front().significance > kBeyondDoubt &&
       terms.front().quantity.kind == FreeQuantity::Kind::kSmoothing) {

@@ -13,9 +13,17 @@
 namespace awmr {
 
 struct SensorFilter {
-  DelayColumn lag;       ///< time constant T, s
-  bool is_at_rows;       ///< true: one filter step per row of the log; false: continuous
-  double damping = 0.0;  ///< zeta, in (0, 1], if the filter is of second order; else 0
+  DelayColumn lag;                           ///< time constant T, s
+  bool is_at_rows;                           ///< true: one step per row; false: continuous
+  std::optional<OffsetColumn> damping = {};  ///< zeta > 0 of a filter of second order
+};
+
+/// One stage of a sensor's filter: its time constant, and the derivatives of this time constant.
+template <class Scalar>
+struct StageLag {
+  Scalar lag_s;       ///< time constant of the stage, s
+  Scalar by_lag;      ///< derivative with respect to the time constant T of the whole filter
+  Scalar by_damping;  ///< derivative with respect to zeta, s
 };
 
 /// Output y of a filter of first order with the input u and the time constant T, and its
@@ -30,17 +38,11 @@ struct SensorFilter {
 template <class Scalar>
 class FilterStage {
  public:
-  /// `direction`: time constant of this stage, divided by that of the whole filter (complex for
-  /// second order). `first`: initial output. `by_column`: derivatives of `first` with respect to
-  /// the columns of the fit.
-  FilterStage(const SensorFilter& filter, Scalar direction, Scalar first,
+  /// `first`: initial output. `by_column`: derivatives of `first` with respect to the columns of
+  /// the fit.
+  FilterStage(const SensorFilter& filter, const StageLag<Scalar>& lag, Scalar first,
               std::vector<Scalar> by_column)
-      : lag_s_(direction * filter.lag.delay_s),
-        direction_(direction),
-        column_(filter.lag.column),
-        is_at_rows_(filter.is_at_rows),
-        y_(first),
-        by_column_(std::move(by_column)) {}
+      : filter_(filter), lag_(lag), y_(first), by_column_(std::move(by_column)) {}
 
   /// Advances the filter by h_s seconds to the input u. `by`: derivatives of u, one per column.
   void next(Scalar u, const Scalar* by, double h_s, std::size_t columns);
@@ -50,10 +52,8 @@ class FilterStage {
  private:
   void move(Scalar u, const Scalar* by, double h_s, std::size_t columns);
 
-  Scalar lag_s_;
-  Scalar direction_;
-  std::size_t column_;
-  bool is_at_rows_;
+  SensorFilter filter_;
+  StageLag<Scalar> lag_;
   Scalar y_;
   Scalar u_before_ = 0.0;
   bool has_before_ = false;
@@ -65,11 +65,19 @@ class FilterStage {
 ///
 ///     T^2 d2y/dt2 + 2 zeta T dy/dt + y = u
 ///
-/// A filter of second order is computed as two stages in series, with the complex time constants T
-/// exp(i phi) and T exp(-i phi), cos phi = zeta. The output y starts at the first reading of the
-/// window. The noise of this reading has an effect that decays with the time constant T. The output
-/// of the first stage is not measured: it starts as if the input had risen at a constant rate
-/// before.
+/// A filter of second order is computed as two stages in series, with the time constants
+///
+///     T_1, T_2 = T (zeta +- i sqrt(1 - zeta^2))        (real if zeta > 1)
+///
+/// With one step per row, the filter of second order is a tracking filter (alpha-beta filter) of
+/// positions, angles or counts, whose estimate of their rate is the reading. Its input is the mean
+/// of u from row to row. With e_1 = exp(-h/T_1) and e_2 = exp(-h/T_2), the gains of the filter are
+///
+///     alpha = 1 - e_1 e_2,   beta = (1 - e_1)(1 - e_2)
+///
+/// The output y starts at the first reading of the window. The noise of this reading has an effect
+/// that decays with the time constant T. The output of the first stage is not measured: it starts
+/// as if the input had risen at a constant rate before.
 class FilteredChannel {
  public:
   /// `first`: first reading of the window. `columns`: number of columns of the fit, with respect to
@@ -92,6 +100,8 @@ class FilteredChannel {
   std::vector<double> by_column_;
   std::optional<FilterStage<double>> single_;
   std::vector<FilterStage<Complex>> pair_;
+  double input_ = 0.0;                  ///< last input of the pair
+  std::vector<Complex> by_input_ = {};  ///< its derivatives
 };
 
 }  // namespace awmr

@@ -260,6 +260,10 @@ std::vector<std::string> automatic_terms() {
   std::vector<std::string> names{std::string(kServoRateName), std::string(kSteeringScaleName),
                                  std::string(kForceSaturationName),
                                  std::string(kSaturationSharpnessName)};
+  for (const LogChannel channel : kChannels) {
+    if (!is_often_filtered(channel)) continue;
+    names.push_back(free_term(FreeQuantity::Kind::kLagDamping, channel).name());
+  }
   const std::vector<std::string> requestable = requestable_terms();
   for (const std::string_view name : kExtraForceNames) {
     if (std::ranges::find(requestable, name) == requestable.end()) names.emplace_back(name);

@@ -72,6 +72,7 @@ constexpr KindInfo kKinds[] = {
     {kBiasPrefix, {-1e6, 1e6}, 1.0},
     {kSensorDelayPrefix, {0.0, 1.0}},
     {kSensorLagPrefix, {0.0, 1.0}},
+    {kLagDampingPrefix, {0.2, 2.0}, 0.5},
     {kSmoothingPrefix, {0.0, 0.1}, 0.01},
     {kSensorScalePrefix, {-0.5, 0.5}},
     {kSlipPrefix, {0.0, 10.0}},  // kSlipRatioPrefix for a slip ratio
@@ -174,10 +175,10 @@ FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows) {
   return quantity;
 }
 
-FreeQuantity second_order_lag_of(LogChannel channel, double damping) {
-  FreeQuantity quantity = sensor_lag_of(channel);
-  quantity.damping = damping;
-  return quantity;
+std::vector<FreeTerm> second_order_lag_of(LogChannel channel, double delay_s, bool is_at_rows) {
+  constexpr double kButterworth = 0.70710678;
+  return {{sensor_lag_of(channel, is_at_rows), delay_s / (2.0 * kButterworth)},
+          {free_term(FreeQuantity::Kind::kLagDamping, channel), kButterworth}};
 }
 
 FreeQuantity smoothing_of(LogChannel channel, bool is_mean) {

@@ -68,9 +68,12 @@ struct FreeQuantity {
     kBias,                 ///< constant offset of a channel
     kSensorDelay,          ///< latency of a channel, s
     kSensorLag,            ///< time constant of a low-pass filter of a channel, s
-    kSmoothing,            ///< variance of a symmetric kernel that smooths a channel, s^2
-    kSensorScale,          ///< scale error s of a channel: it reads 1 + s times the true value
-    kWheelSlip,            ///< slip of the wheels that measure a channel (wheel_slip.h)
+    /// Damping zeta of the low-pass filter of a channel, which this quantity makes a filter of
+    /// second order (filtered_channel.h).
+    kLagDamping,
+    kSmoothing,    ///< variance of a symmetric kernel that smooths a channel, s^2
+    kSensorScale,  ///< scale error s of a channel: it reads 1 + s times the true value
+    kWheelSlip,    ///< slip of the wheels that measure a channel (wheel_slip.h)
     /// Mounting of the sensor of the sway speed v: its distance x_s, m, ahead of the centre of
     /// gravity, and (kSwayAngle) the angle a, rad, by which it is turned to the left. With the
     /// speed u and the yaw rate r, it reads
@@ -105,10 +108,10 @@ struct FreeQuantity {
   double large_change = 1.0;
   double full_command = 1.0;  ///< largest command F'm, > 0 (for kForceSaturation)
   double fastest = 1.0;  ///< largest speed of the logs, m/s or rad/s (for a Stribeck speed scale)
-  bool is_at_rows = false;  ///< true: the filter makes one step per row of a log (for kSensorLag)
-  double damping = 0.0;     ///< zeta of a second-order filter; 0: first order (for kSensorLag)
-  bool is_mean = false;     ///< true: moving average; false: Gaussian kernel (for kSmoothing)
-  bool is_ratio = false;    ///< true: a slip ratio; false: a slip speed (for kWheelSlip)
+  bool is_at_rows = false;    ///< true: the filter makes one step per row of a log (for kSensorLag)
+  bool is_mean = false;       ///< true: moving average; false: Gaussian kernel (for kSmoothing)
+  bool turns_slowly = false;  ///< RampTimes::turns_slowly (for kForceRise)
+  bool is_ratio = false;      ///< true: a slip ratio; false: a slip speed (for kWheelSlip)
   /// For errors of the steering (is_of_linkage()). True: the stop limits the command, so the angle
   /// may lie beyond the stop. False: the stop limits the angle.
   bool is_beyond_stop = false;
@@ -133,9 +136,10 @@ struct FreeQuantity {
     return is(ExtraForce::kBrakeForce) || is(ExtraForce::kReverseForce);
   }
   /// True for a quantity that only describes the shape of another term: sharpness of a saturation,
-  /// speed scale of Stribeck friction, exponents of the drag in turns.
+  /// damping of a sensor's filter, speed scale of Stribeck friction, exponents of the drag in turns.
   bool is_form() const {
-    return kind == Kind::kSaturationSharpness || is_stribeck_speed() || is_turn_drag_exponent();
+    return kind == Kind::kSaturationSharpness || kind == Kind::kLagDamping || is_stribeck_speed() ||
+           is_turn_drag_exponent();
   }
   /// True for an error of the steering linkage, by which the angle differs from the command.
   bool is_of_linkage() const {
@@ -173,11 +177,6 @@ FreeQuantity extra_force(ExtraForce force);
 /// continuous filter (filtered_channel.h).
 FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
 
-/// Time constant T, s, of a continuous low-pass filter of second order through which a channel was
-/// logged. `damping`: zeta, for example 1 for two equal filters in series, 0.707 for a Butterworth
-/// filter (filtered_channel.h).
-FreeQuantity second_order_lag_of(LogChannel channel, double damping);
-
 /// Variance, s^2, of a symmetric kernel that smoothed a channel over the rows of the log: by
 /// central differences, interpolation between the rows of another log, or smoothing after the
 /// drive. `is_mean`: true for a moving average, false for a Gaussian kernel (smoothing_kernel.h).
@@ -191,6 +190,13 @@ struct FreeTerm {
   FreeQuantity quantity;
   double begin;  ///< initial guess of its coordinate
 };
+
+/// Time constant T and damping zeta of a low-pass filter of second order through which a channel
+/// was logged, for example zeta = 1 for two equal filters in series, 0.707 for a Butterworth filter.
+/// `delay_s`: delay 2 zeta T of slow signals at the initial guess. `is_at_rows`: true for a tracking
+/// filter with one step per row of the log, false for a continuous filter (filtered_channel.h).
+std::vector<FreeTerm> second_order_lag_of(LogChannel channel, double delay_s,
+                                          bool is_at_rows = false);
 
 /// True for a negative delay of the commands, which means that their time stamps are late.
 bool is_late_commands(const FreeTerm& term);

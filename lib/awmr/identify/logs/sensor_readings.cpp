@@ -131,8 +131,10 @@ SensorReadings::SensorReadings(const LogModel& model, const FitWindow& window,
                columns),
       row_(columns) {
   for (const LogChannel c : kChannels) {
-    const auto& lag = vehicle.sensors.lag[at(c)];
-    if (lag) filters_[at(c)].emplace(*lag, channel_of(window.measured, c), columns);
+    std::optional<SensorFilter> filter = vehicle.sensors.lag[at(c)];
+    if (!filter) continue;
+    filter->damping = vehicle.sensors.lag_damping[at(c)];
+    filters_[at(c)].emplace(*filter, channel_of(window.measured, c), columns);
   }
 }
 

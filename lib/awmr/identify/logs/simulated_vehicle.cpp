@@ -91,7 +91,10 @@ void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const 
   const std::size_t c = at(q.channel);
   switch (q.kind) {
     case Kind::kSensorLag:
-      sensors.lag[c] = {{number, i}, q.is_at_rows, q.damping};
+      sensors.lag[c] = {{number, i}, q.is_at_rows, {}};
+      break;
+    case Kind::kLagDamping:
+      sensors.lag_damping[c] = {number, i};
       break;
     case Kind::kSmoothing:
       sensors.smoothing[c] = smoothing_at(window, q, number, i);

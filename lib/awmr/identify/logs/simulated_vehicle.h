@@ -39,7 +39,8 @@ struct SensorTerms {
   std::array<double, kChannelCount> bias{};
   std::array<std::optional<std::size_t>, kChannelCount> bias_column{};
   std::array<std::optional<DelayColumn>, kChannelCount> delay{};
-  std::array<std::optional<SensorFilter>, kChannelCount> lag{};
+  std::array<std::optional<SensorFilter>, kChannelCount> lag{};  ///< without their damping
+  std::array<std::optional<OffsetColumn>, kChannelCount> lag_damping{};
   std::array<std::optional<Smoothing>, kChannelCount> smoothing{};
   std::array<std::optional<OffsetColumn>, kChannelCount> scale{};
   std::vector<WheelSlip> slips;

@@ -103,8 +103,9 @@ std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& s
   if (has_motor_lag(problem.model)) return std::nullopt;
   std::vector<double> lags_s;
   for (std::size_t i = problem.model.quantities.size(); i-- > 0;) {
-    if (problem.model.quantities[i].kind != Kind::kSensorLag) continue;
-    lags_s.push_back(point.coordinates[i]);
+    const Kind kind = problem.model.quantities[i].kind;
+    if (kind != Kind::kSensorLag && kind != Kind::kLagDamping) continue;
+    if (kind == Kind::kSensorLag) lags_s.push_back(point.coordinates[i]);
     const auto at_i = static_cast<std::ptrdiff_t>(i);
     problem.model.quantities.erase(problem.model.quantities.begin() + at_i);
     problem.initial.erase(problem.initial.begin() + at_i);
