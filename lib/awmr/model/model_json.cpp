@@ -32,10 +32,11 @@ bool is_estimated_name(std::string_view name) {
          name == kSteeringTrimName || name == kSteeringDeadBandName ||
          name == kSteeringAsymmetryName || name == kSteeringCurveName ||
          name == kSteeringScaleName || name == kServoRateName || name == kForceImbalanceName ||
-         name == kForceExponentName || name == kForceSaturationName ||
-         name == kSaturationSharpnessName || name == kSwayOffsetName || name == kSwayAngleName ||
-         name == kSpeedOffsetName || name == kCompassSinName || name == kCompassCosName ||
-         name == kMotorLagName || name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
+         name == kForceExponentName || name == kForceRiseName || name == kForceFallName ||
+         name == kForceSaturationName || name == kSaturationSharpnessName ||
+         name == kSwayOffsetName || name == kSwayAngleName || name == kSpeedOffsetName ||
+         name == kCompassSinName || name == kCompassCosName || name == kMotorLagName ||
+         name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
          name == kQuadraticOverSurgeName ||
          std::ranges::find(kExtraForceNames, name) != kExtraForceNames.end() ||
          name.starts_with(kBiasPrefix) || name.starts_with(kSensorDelayPrefix) ||

@@ -23,6 +23,8 @@ class LaggedForces {
   /// outlive this object.
   LaggedForces(const DrivingLog& log, std::size_t begin, std::size_t end, double lag_s);
 
+  double time_constant_s() const { return lag_s_; }
+
   /// Mean force over a time span, and its derivatives with respect to T and to the delay, 1/s.
   struct Mean {
     SideForces<double> force;

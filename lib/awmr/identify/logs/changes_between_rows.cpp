@@ -136,6 +136,7 @@ bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& poin
   }
   if (!uncertain_times(problem, point, delays).are_likelier) return false;
   std::vector<FreeQuantity> more = further_terms(problem);
+  std::erase_if(more, [](const FreeQuantity& q) { return q.is_ramp(); });
   for (const ParameterId term : candidate_terms) {
     if (!place_of(quantities, term)) more.push_back(free_parameter(term));
   }

@@ -329,6 +329,15 @@ std::string saturation_text(const FoundTerm& loss, const LogFit& fit) {
       std::min(linear, full));
 }
 
+std::string ramp_text(const FoundTerm& time, const LogFit&) {
+  return fmt::format(
+      "the force of a motor {} by at most {:.2f} +- {:.2f} of F_max per second: a controller ramps "
+      "the commands (soft start, slew-rate limit). The fit compensates for this, but simulations "
+      "and tuned gains ignore it; switch the ramp off, or log the commands behind it",
+      time.quantity.kind == FreeQuantity::Kind::kForceRise ? "rises" : "falls", 1.0 / time.value,
+      time.error / (time.value * time.value));
+}
+
 /// Finding about the terms of one kind.
 struct TermFinding {
   FreeQuantity::Kind kind;
@@ -353,6 +362,8 @@ constexpr TermFinding kTermFindings[] = {
     {FreeQuantity::Kind::kSteeringCurve, "steering-curve", curve_text},
     {FreeQuantity::Kind::kSteeringScale, "steering-scale", steering_scale_text},
     {FreeQuantity::Kind::kSteeringTrim, "steering-trim", trim_text},
+    {FreeQuantity::Kind::kForceRise, "force-ramp", ramp_text},
+    {FreeQuantity::Kind::kForceFall, "force-ramp", ramp_text},
     {FreeQuantity::Kind::kForceImbalance, "force-imbalance", imbalance_text},
     {FreeQuantity::Kind::kForceExponent, "force-saturation", exponent_text},
     {FreeQuantity::Kind::kForceSaturation, "force-saturation", saturation_text}};

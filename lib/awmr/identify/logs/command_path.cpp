@@ -19,7 +19,7 @@ HeldCommand logged_command(const DrivingLog& log, const ActingRows& rows) {
 /// by which f was replaced (chain rule).
 void scale_derivatives(double slope, double SideForces<double>::*side, DelayedCommand& at) {
   for (SideForces<double>* const by :
-       {&at.by_delay, &at.by_lag, &at.by_imbalance, &at.by_exponent}) {
+       {&at.by_delay, &at.by_lag, &at.by_rise, &at.by_fall, &at.by_imbalance, &at.by_exponent}) {
     by->*side *= slope;
   }
 }
@@ -113,7 +113,8 @@ DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
   }
   if (path.imbalance) {
     at.by_imbalance = {-at.command.force.left, at.command.force.right};
-    for (SideForces<double>* const force : {&at.command.force, &at.by_delay, &at.by_lag}) {
+    for (SideForces<double>* const force :
+         {&at.command.force, &at.by_delay, &at.by_lag, &at.by_rise, &at.by_fall}) {
       force->left *= 1.0 - path.imbalance->value;
       force->right *= 1.0 + path.imbalance->value;
     }
@@ -129,7 +130,10 @@ void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
   const auto off = [&](double SideForces<double>::*side) {
     if (command.*side != 0.0) return;
     at_wheels.command.force.*side = 0.0;
-    at_wheels.by_lag.*side = at_wheels.by_delay.*side = 0.0;
+    for (SideForces<double>* const by :
+         {&at_wheels.by_lag, &at_wheels.by_delay, &at_wheels.by_rise, &at_wheels.by_fall}) {
+      by->*side = 0.0;
+    }
   };
   off(&SideForces<double>::left);
   off(&SideForces<double>::right);
@@ -153,12 +157,22 @@ CommandColumns columns_of(const CommandPath& path) {
   const auto column = [](const auto& term) {
     return term ? std::optional(term->column) : std::nullopt;
   };
-  return {
-      column(path.delay),          column(path.steering_delay),     path.lag_column,
-      column(path.steering_trim),  column(path.steering_dead_band), column(path.steering_asymmetry),
-      column(path.steering_curve), column(path.steering_scale),     column(path.servo_rate),
-      column(path.imbalance),      column(path.exponent),           column(path.saturation),
-      column(path.sharpness)};
+  return {column(path.delay),
+          column(path.steering_delay),
+          path.lag_column,
+          column(path.rise),
+          column(path.fall),
+          column(path.steering_trim),
+          column(path.steering_dead_band),
+          column(path.steering_asymmetry),
+          column(path.steering_curve),
+          column(path.steering_scale),
+          column(path.servo_rate),
+          column(path.imbalance),
+          column(path.exponent),
+          column(path.saturation),
+          column(path.sharpness),
+          path.turns_slowly};
 }
 
 DelayedCommand command_of_rows(const DrivingLog& log, const ActingRows& rows,
@@ -166,15 +180,34 @@ DelayedCommand command_of_rows(const DrivingLog& log, const ActingRows& rows,
   return with_errors({logged_command(log, rows)}, path);
 }
 
-DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, double t_s,
-                            double h_s, const CommandPath& path) {
-  if (!path.lag) return command_of_rows(*signals.log, rows, path);
-  const HeldCommand logged = logged_command(*signals.log, rows);
-  DelayedCommand at{logged};
+namespace {
+
+/// Sets the mean forces over [t, t + h] and their derivatives, with the motors' lag or ramps.
+void set_mean_forces(const LogSignals& signals, double t_s, double h_s, const CommandPath& path,
+                     DelayedCommand& at) {
+  if (path.ramps) {
+    const RampedForces::Mean mean = path.ramps->mean(t_s, h_s, path.force_delay_s());
+    at.command.force = mean.force;
+    at.by_lag = mean.by_lag;
+    at.by_delay = mean.by_delay;
+    at.by_rise = mean.by_rise;
+    at.by_fall = mean.by_fall;
+    return;
+  }
   const LaggedForces::Mean mean = path.lag->mean(signals, t_s, h_s, path.force_delay_s());
   at.command.force = mean.force;
   at.by_lag = mean.by_lag;
   at.by_delay = mean.by_delay;
+}
+
+}  // namespace
+
+DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, double t_s,
+                            double h_s, const CommandPath& path) {
+  if (!path.has_mean_forces()) return command_of_rows(*signals.log, rows, path);
+  const HeldCommand logged = logged_command(*signals.log, rows);
+  DelayedCommand at{logged};
+  set_mean_forces(signals, t_s, h_s, path, at);
   at.change_column = path.last_change_column(rows.forces);
   if (path.switches_off) switch_off(logged.force, at);
   return with_errors(at, path);
@@ -185,9 +218,14 @@ DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPa
   const auto row_at = [&](double at_s) {
     return ActingRow(signals.log->t_s, at_s + 2.0 * kSameTime_s).row();
   };
-  return command_over(signals,
-                      {row_at(t_s - path.force_delay_s()), row_at(t_s - path.steering_delay_s())},
-                      t_s, kMoment_s, path);
+  DelayedCommand at = command_over(
+      signals, {row_at(t_s - path.force_delay_s()), row_at(t_s - path.steering_delay_s())}, t_s,
+      kMoment_s, path);
+  // Without a ramp, the derivative with respect to its time is an impulse, which has no value at
+  // one time.
+  if (path.rise && path.rise->value == 0.0) at.by_rise = {};
+  if (path.fall && path.fall->value == 0.0) at.by_fall = {};
+  return at;
 }
 
 }  // namespace awmr

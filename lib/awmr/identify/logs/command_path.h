@@ -8,6 +8,7 @@
 #include <span>
 
 #include "awmr/identify/logs/linear_rates.h"
+#include "awmr/identify/logs/ramped_forces.h"
 #include "awmr/identify/logs/uncertain_changes.h"
 #include "awmr/trials/lagged_forces.h"
 
@@ -36,6 +37,13 @@ struct CommandPath {
   std::optional<LaggedForces> lag = {};  ///< forces after the motors' lag
   /// Column of the motors' time constant; absent if it is fixed.
   std::optional<std::size_t> lag_column = {};
+  /// Times, s, in which the controller lets the force of a motor rise or fall by F_max.
+  std::optional<OffsetColumn> rise = {};
+  std::optional<OffsetColumn> fall = {};
+  bool turns_slowly = false;  ///< RampTimes::turns_slowly
+  /// Forces after these ramps and the lag, instead of `lag`. Absent without `rise` and `fall`, and
+  /// if the forces jump because both times are 0.
+  std::optional<RampedForces> ramps = {};
   /// Trim, rad: added to the steering command or logged angle.
   std::optional<OffsetColumn> steering_trim = {};
   /// Dead band, rad, asymmetry e, curve k and scale error q of the steering linkage
@@ -70,6 +78,9 @@ struct CommandPath {
   /// Column of the last of the changes up to `row`; empty if there is none.
   std::optional<std::size_t> last_change_column(std::size_t row) const;
 
+  /// True if a jump of a logged command gives no jump of the force that the integration has to
+  /// treat: the mean force over each step includes it.
+  bool has_mean_forces() const { return lag || ramps; }
   double force_delay_s() const { return delay ? delay->delay_s : 0.0; }
   double steering_delay_s() const {
     return force_delay_s() + (steering_delay ? steering_delay->delay_s : 0.0);
@@ -80,6 +91,8 @@ struct CommandColumns {
   std::optional<std::size_t> delay = {};
   std::optional<std::size_t> steering_delay = {};
   std::optional<std::size_t> lag = {};
+  std::optional<std::size_t> rise = {};
+  std::optional<std::size_t> fall = {};
   std::optional<std::size_t> steering_trim = {};
   std::optional<std::size_t> steering_dead_band = {};
   std::optional<std::size_t> steering_asymmetry = {};
@@ -90,6 +103,7 @@ struct CommandColumns {
   std::optional<std::size_t> exponent = {};
   std::optional<std::size_t> saturation = {};
   std::optional<std::size_t> sharpness = {};
+  bool turns_slowly = false;  ///< CommandPath::turns_slowly
 };
 CommandColumns columns_of(const CommandPath& path);
 
@@ -97,10 +111,12 @@ CommandColumns columns_of(const CommandPath& path);
 /// errors of CommandPath that the fit estimates.
 struct DelayedCommand {
   HeldCommand command;
-  /// d force / d delay, 1/s. Set only for motors with lag. Without lag the force jumps; then
+  /// d force / d delay, 1/s. Set only for motors with lag or ramps. Without, the force jumps; then
   /// LinearStepper::change_command() adds the derivative with respect to the delay.
   SideForces<double> by_delay{};
   SideForces<double> by_lag{};         ///< d force / d time constant of the motors, 1/s
+  SideForces<double> by_rise{};        ///< d force / d rise time, 1/s
+  SideForces<double> by_fall{};        ///< d force / d fall time, 1/s
   SideForces<double> by_imbalance{};   ///< d force / d imbalance
   SideForces<double> by_exponent{};    ///< d force / d ln p
   SideForces<double> by_saturation{};  ///< d force / d L
@@ -122,6 +138,8 @@ template <class Visit>
 void for_each_force_column(const CommandColumns& c, const DelayedCommand& command, Visit visit) {
   if (c.delay) visit(*c.delay, command.by_delay);
   if (c.lag) visit(*c.lag, command.by_lag);
+  if (c.rise) visit(*c.rise, command.by_rise);
+  if (c.fall) visit(*c.fall, command.by_fall);
   if (c.imbalance) visit(*c.imbalance, command.by_imbalance);
   if (c.exponent) visit(*c.exponent, command.by_exponent);
   if (c.saturation) visit(*c.saturation, command.by_saturation);

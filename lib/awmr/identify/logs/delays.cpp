@@ -134,6 +134,22 @@ bool is_turn_drag_of_any_rate(const NoiseIteration& fit) {
   return i && fit.point.coordinates[*i] < kFlattestTurnDrag;
 }
 
+/// Shortest accepted time of a ramp of the forces, s. The effect of a faster ramp is like that of
+/// commands that change between two rows, or of a motor's lag.
+constexpr double kShortestRamp_s = 0.05;
+
+/// True if a term that `fit` has in addition to those of `settled` does not mean what its name says:
+/// a drag in turns of any rate, or a very fast ramp of the forces.
+bool has_wrong_term(const NoiseIteration& fit, const NoiseIteration& settled) {
+  const std::vector<FreeQuantity>& quantities = fit.problem.model.quantities;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const FreeQuantity& q = quantities[i];
+    const bool is_new_ramp = q.is_ramp() && !has(settled.problem.model.quantities, q.kind);
+    if (is_new_ramp && fit.point.coordinates[i] < kShortestRamp_s) return true;
+  }
+  return is_turn_drag_of_any_rate(fit);
+}
+
 /// A candidate term is tried only if its significance is at least this fraction of that of the most
 /// significant candidate. Weaker candidates wait, to save time: the search tests them again after
 /// it has added the best term.
@@ -233,7 +249,9 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     const bool is_sensor = more.kind == FreeQuantity::Kind::kSensorDelay;
     if (is_sensor && has_sensor) continue;
     NoiseIteration fit = tried(settled, with_companion(settled.problem, candidate_term), loss);
-    if (more.is(ExtraForce::kTurnDrag) && is_turn_drag_of_any_rate(fit)) continue;
+    if ((more.is(ExtraForce::kTurnDrag) || more.is_ramp()) && has_wrong_term(fit, settled)) {
+      continue;
+    }
     const double found_s = fit.point.coordinates.back();
     consider_angle_beyond_stop(settled, candidate_term, fit, loss, lowest);
     if (&candidate_term == &terms.front() && candidate_term.significance > kBeyondDoubt) {
@@ -278,12 +296,12 @@ Extended with_both_of_turning(NoiseIteration fit) {
 }
 
 /// Returns a converged fit with one more free term. Empty if no term lowers AIC enough
-/// (settled_if_better()), or if the term is rejected (is_turn_drag_of_any_rate()).
+/// (settled_if_better()), or if the term is rejected (has_wrong_term()).
 std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss loss) {
   std::optional<NoiseIteration> more = likeliest_with_one_more(settled, loss);
   if (!more) return std::nullopt;
   more = settled_if_better(settled, with_both_of_turning(*std::move(more)), loss);
-  return more && !is_turn_drag_of_any_rate(*more) ? std::move(more) : std::nullopt;
+  return more && !has_wrong_term(*more, settled) ? std::move(more) : std::nullopt;
 }
 
 /// Returns a fit with one more free term: a candidate of the score tests, else a slower servo, else

@@ -45,8 +45,19 @@ std::vector<FreeTerm> late_terms(const FamilyFit& fit) {
   return terms;
 }
 
+/// Ramps of the forces, rising and falling, that the fit does not yet estimate.
+std::vector<FreeTerm> ramp_terms(const FamilyFit& fit) {
+  constexpr double kBegin_s = 0.3;
+  std::vector<FreeTerm> terms;
+  for (const FreeQuantity& ramp :
+       {force_rise(false), force_rise(true), free_term(FreeQuantity::Kind::kForceFall)}) {
+    if (!has(fit.fit.quantities, ramp.kind)) terms.push_back({ramp, kBegin_s});
+  }
+  return terms;
+}
+
 /// Returns the models to try next. Each changes the family of an open axis, or adds one of
-/// late_terms(), or adds back-EMF if it is a candidate term. `is_done`: axis that was changed last
+/// late_terms() or ramp_terms(), or adds back-EMF if it is a candidate term. `is_done`: axis that was changed last
 /// and therefore stays (true: yaw, false: surge).
 std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
                                      std::optional<bool> is_done) {
@@ -57,6 +68,7 @@ std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
     for (const Families& other : other_families(families, of_yaw)) neighbours.push_back({other});
   }
   for (const FreeTerm& term : late_terms(fit)) neighbours.push_back({families, {term}});
+  for (const FreeTerm& term : ramp_terms(fit)) neighbours.push_back({families, {term}});
   if (std::ranges::find(fit.options.candidate_terms, ParameterId::kBackEmf) !=
       fit.options.candidate_terms.end()) {
     neighbours.push_back({.families = families, .has_back_emf = true});
@@ -111,7 +123,15 @@ FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power
                  const FamilyFit& rough) {
   LogFitOptions options = from_optimum(rough.options, rough);
   options.finds_delays = power_law.finds_delays;
-  options.terms = power_law.terms;
+  const auto is_requested = [&](const FreeTerm& term) {
+    return std::ranges::any_of(power_law.terms, [&](const FreeTerm& other) {
+      return other.quantity.kind == term.quantity.kind;
+    });
+  };
+  std::erase_if(options.terms, [&](const FreeTerm& term) {
+    return !term.quantity.is_ramp() || is_requested(term);
+  });
+  options.terms.insert(options.terms.end(), power_law.terms.begin(), power_law.terms.end());
   return fit_with(logs, std::move(options), rough.surge, rough.yaw);
 }
 

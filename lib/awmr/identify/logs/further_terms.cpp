@@ -181,10 +181,10 @@ std::vector<FreeQuantity> all_terms() {
   using Kind = FreeQuantity::Kind;
   std::vector<FreeQuantity> terms;
   for (const Kind kind :
-       {Kind::kDelay, Kind::kSteeringDelay, Kind::kMotorLag, Kind::kSteeringTrim,
-        Kind::kSteeringDeadBand, Kind::kSteeringAsymmetry, Kind::kSteeringCurve,
-        Kind::kForceImbalance, Kind::kForceExponent, Kind::kSwayOffset, Kind::kSwayAngle,
-        Kind::kSpeedOffset, Kind::kCompassSin, Kind::kCompassCos}) {
+       {Kind::kDelay, Kind::kSteeringDelay, Kind::kMotorLag, Kind::kForceRise, Kind::kForceFall,
+        Kind::kSteeringTrim, Kind::kSteeringDeadBand, Kind::kSteeringAsymmetry,
+        Kind::kSteeringCurve, Kind::kForceImbalance, Kind::kForceExponent, Kind::kSwayOffset,
+        Kind::kSwayAngle, Kind::kSpeedOffset, Kind::kCompassSin, Kind::kCompassCos}) {
     terms.push_back(free_term(kind));
   }
   for (const ExtraForce force :
@@ -228,6 +228,10 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
     found.push_back(free_term(Kind::kForceImbalance));
   }
   const double full_command = largest_command(problem);
+  for (const FreeQuantity& ramp :
+       {force_rise(false), force_rise(true), free_term(Kind::kForceFall)}) {
+    if (full_command > 0.0 && !has(quantities, ramp.kind)) found.push_back(ramp);
+  }
   // A fit contains either an exponent or a saturation of the forces. Both together could fit every
   // curve, even one with wrong forces at small commands.
   if (full_command > 0.0 && !has(quantities, Kind::kForceExponent) &&

@@ -22,6 +22,7 @@ namespace awmr {
 ///   - the scale of the steering angles, if the fit has such an asymmetry or curve;
 ///   - a force imbalance, if left and right forces differ;
 ///   - a saturation of the forces, or an exponent below 1;
+///   - ramps by which the forces rise or fall;
 ///   - forces of extra_forces.h (add_forces() in further_terms.cpp);
 ///   - a scale error of the yaw rate if the heading or a position is measured, and of the speed if
 ///     a position is measured;

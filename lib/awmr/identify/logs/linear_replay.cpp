@@ -9,15 +9,15 @@ namespace {
 
 /// Updates the derivatives of the motion with respect to the time of a command change, if this time
 /// is uncertain. `before`: rows of the log whose commands acted until the change; `after`: rows of
-/// the new commands. Forces of motors with lag are left out, because they do not jump
-/// (DelayedCommand::change_column).
+/// the new commands. Forces of motors with lag or ramps are left out, because the mean
+/// forces include their changes (DelayedCommand::change_column).
 void change_time_of_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
                          const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
   if (stepper.columns() == 0 || path.changes.empty()) return;
   const bool is_of_forces = before.forces != after.forces;
   const auto column = path.change_column(is_of_forces ? after.forces : after.steering);
   if (!column) return;
-  if (path.lag) before.forces = after.forces;
+  if (path.has_mean_forces()) before.forces = after.forces;
   const DrivingLog& log = *signals.log;
   stepper.change_time(*column, command_of_rows(log, before, path),
                       command_of_rows(log, after, path), motion);
@@ -25,12 +25,12 @@ void change_time_of_rows(const LogSignals& signals, ActingRows before, const Act
 
 /// Updates the derivatives of the motion at a command change: those with respect to the time of the
 /// change, as change_time_of_rows() does, and those with respect to the delays of the commands.
-/// Forces of motors with lag are left out, because they do not jump. `before`, `after`: as in
+/// Forces of motors with lag or ramps are left out, as there. `before`, `after`: as in
 /// change_time_of_rows().
 void change_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
                  const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
   change_time_of_rows(signals, before, after, path, stepper, motion);
-  if (path.lag) before.forces = after.forces;
+  if (path.has_mean_forces()) before.forces = after.forces;
   const DrivingLog& log = *signals.log;
   stepper.change_command(command_of_rows(log, before, path), command_of_rows(log, after, path),
                          motion);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "awmr/core/index.h"
 #include "awmr/trials/replay.h"
@@ -235,6 +236,20 @@ void LinearStepper::change_command(const DelayedCommand& before, const DelayedCo
     double* const row = motion.row(channel, columns_);
     if (c.delay) row[*c.delay] += less;
     if (c.steering_delay && channel == LogChannel::kSteering) row[*c.steering_delay] += less;
+  }
+  const RampImpulses impulses =
+      ramp_impulses(before.command.force, after.command.force, c.turns_slowly);
+  if (c.rise) add_impulse(*c.rise, impulses.by_rise, motion);
+  if (c.fall) add_impulse(*c.fall, impulses.by_fall, motion);
+}
+
+void LinearStepper::add_impulse(std::size_t column, const SideForces<double>& area,
+                                LinearMotion& motion) {
+  for (const auto& [channel, rate] : {std::pair(LogChannel::kSpeed, &DrivenSlopes::u),
+                                      std::pair(LogChannel::kSway, &DrivenSlopes::v),
+                                      std::pair(LogChannel::kYawRate, &DrivenSlopes::r)}) {
+    motion.row(channel, columns_)[column] +=
+        area.left * rates_.by_force_left.*rate + area.right * rates_.by_force_right.*rate;
   }
 }
 

@@ -59,6 +59,8 @@ class LinearStepper {
   ///     S += rates before - rates after
   ///
   /// The additional delay of the steering changes only the derivative of the steering angle.
+  ///
+  /// Also updates the derivatives with respect to the times of ramps that are 0 (ramp_impulses()).
   void change_command(const DelayedCommand& before, const DelayedCommand& after,
                       LinearMotion& motion);
   /// Updates the derivatives of the motion with respect to the time of this jump in the same way.
@@ -80,6 +82,9 @@ class LinearStepper {
     double factor;
   };
   void note_driven(const DelayedCommand& command, double* driven) const;
+  /// Adds the effect of an impulse of the forces on the derivatives with respect to `column`.
+  /// `area`: integral of the impulse over time. Uses the derivatives of the last find_rates().
+  void add_impulse(std::size_t column, const SideForces<double>& area, LinearMotion& motion);
   /// Sets the derivatives of the state's rates of change with respect to the quantity with the
   /// index `column`, which changes the commands. `by`: derivatives of the commands with respect to
   /// it.

@@ -58,6 +58,8 @@ constexpr KindInfo kKinds[] = {
     {kInputDelayName, {-1.0, 1.0}},
     {kSteeringDelayName, {-1.0, 1.0}},
     {kMotorLagName, {0.0, 1.0}},
+    {kForceRiseName, {0.0, 10.0}, 0.3},
+    {kForceFallName, {0.0, 10.0}, 0.3},
     {kSteeringTrimName, {-0.35, 0.35}},
     {kSteeringDeadBandName, {0.0, 0.35}},
     {kSteeringAsymmetryName, {-0.5, 0.5}},
@@ -184,6 +186,12 @@ std::vector<FreeTerm> second_order_lag_of(LogChannel channel, double delay_s, bo
 FreeQuantity smoothing_of(LogChannel channel, bool is_mean) {
   FreeQuantity quantity = free_term(FreeQuantity::Kind::kSmoothing, channel);
   quantity.is_mean = is_mean;
+  return quantity;
+}
+
+FreeQuantity force_rise(bool turns_slowly) {
+  FreeQuantity quantity = free_term(FreeQuantity::Kind::kForceRise);
+  quantity.turns_slowly = turns_slowly;
   return quantity;
 }
 

@@ -29,7 +29,11 @@ struct FreeQuantity {
     /// Additional delay of the steering command relative to the forces, s, for example the period
     /// of the servo's pulses. Negative if the time stamps of the steering command are late.
     kSteeringDelay,
-    kMotorLag,      ///< time constant of the motors, s
+    kMotorLag,  ///< time constant of the motors, s
+    /// Time, s, in which a controller lets the magnitude of a motor's force rise (kForceFall: fall)
+    /// by F_max (ramped_forces.h). 0: the force follows its command at once.
+    kForceRise,
+    kForceFall,
     kSteeringTrim,  ///< steering angle at a command of 0, rad; positive to the left
     /// Dead band b >= 0, rad, of the steering: the command c steers to the angle c - b sgn c, or to
     /// 0 if |c| < b.
@@ -141,6 +145,8 @@ struct FreeQuantity {
     return kind == Kind::kSaturationSharpness || kind == Kind::kLagDamping || is_stribeck_speed() ||
            is_turn_drag_exponent();
   }
+  /// True for a time in which a controller lets forces rise or fall (ramped_forces.h).
+  bool is_ramp() const { return kind == Kind::kForceRise || kind == Kind::kForceFall; }
   /// True for an error of the steering linkage, by which the angle differs from the command.
   bool is_of_linkage() const {
     return kind == Kind::kSteeringTrim || kind == Kind::kSteeringDeadBand ||
@@ -181,6 +187,10 @@ FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
 /// central differences, interpolation between the rows of another log, or smoothing after the
 /// drive. `is_mean`: true for a moving average, false for a Gaussian kernel (smoothing_kernel.h).
 FreeQuantity smoothing_of(LogChannel channel, bool is_mean = false);
+
+/// Time in which the magnitude of a motor's force rises by F_max. `turns_slowly`: true if the fall
+/// to 0 before a change of the sign is as slow (RampTimes).
+FreeQuantity force_rise(bool turns_slowly);
 
 /// Slip s of the wheels that measure the speed or the yaw rate (wheel_slip.h): a slip ratio if
 /// `is_ratio`, else a slip speed.

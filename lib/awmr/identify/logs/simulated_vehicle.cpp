@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "awmr/core/index.h"
 #include "awmr/core/units.h"
@@ -47,6 +48,13 @@ void set_command_term(const FreeQuantity& q, double number, std::size_t i, const
     case Kind::kMotorLag:
       path.lag.emplace(*window.rows.log, window.rows.begin, window.rows.end, number);
       path.lag_column = i;
+      break;
+    case Kind::kForceRise:
+      path.rise = {number, i};
+      path.turns_slowly = q.turns_slowly;
+      break;
+    case Kind::kForceFall:
+      path.fall = {number, i};
       break;
     case Kind::kSteeringTrim:
       path.steering_trim = {number, i};
@@ -133,6 +141,25 @@ void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const 
   }
 }
 
+/// Sets the motor lag of the vehicle file, unless the fit estimates one, and the ramps of the forces
+/// (CommandPath::ramps).
+void set_motor_dynamics(const LogModel& model, const FitWindow& window, CommandPath& path) {
+  const DrivingLog& log = *window.rows.log;
+  const auto [begin, end] = std::pair(window.rows.begin, window.rows.end);
+  const double given_lag_s = model.vehicle.motor_time_constant_s.value_or(0.0);
+  if (!path.lag && given_lag_s > 0.0) path.lag.emplace(log, begin, end, given_lag_s);
+  if (!path.rise && !path.fall) return;
+  const bool has_ramp =
+      (path.rise && path.rise->value > 0.0) || (path.fall && path.fall->value > 0.0);
+  // Without ramps and lag, LinearStepper::change_command() treats the jumps of the forces.
+  if (!has_ramp && !path.lag && path.delay) return;
+  path.ramps.emplace(log, begin, end,
+                     RampTimes{.rise_s = path.rise ? path.rise->value : 0.0,
+                               .fall_s = path.fall ? path.fall->value : 0.0,
+                               .lag_s = path.lag ? path.lag->time_constant_s() : 0.0,
+                               .turns_slowly = path.turns_slowly});
+}
+
 }  // namespace
 
 bool SensorTerms::any_delayed() const {
@@ -161,10 +188,7 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
     set_command_term(q, number, i, window, vehicle.path);
     set_sensor_term(q, number, i, window, vehicle.sensors);
   }
-  const double given_lag_s = model.vehicle.motor_time_constant_s.value_or(0.0);
-  if (!vehicle.path.lag && given_lag_s > 0.0) {
-    vehicle.path.lag.emplace(*window.rows.log, window.rows.begin, window.rows.end, given_lag_s);
-  }
+  set_motor_dynamics(model, window, vehicle.path);
   vehicle.extra.has_motor_per_side =
       has_force_excess(model.quantities) && has_force_difference(*window.rows.log);
   vehicle.path.switches_off = values[at(ParameterId::kBackEmf)] > 0.0;
