@@ -861,8 +861,9 @@ TEST(Tune, AddsAnObserverIfRunsDoNotSettleWithoutIt) {
   }
 }
 
-/// An observer whose limit is below the friction cannot move a vehicle that rests. The friction is
-/// that of a vehicle with more friction than half of its largest moment.
+/// An observer whose limit is below the friction cannot move a vehicle that rests. Here the
+/// friction, Coulomb friction and tyre scrub, exceeds half of the largest moment. Half of the
+/// moment that the friction leaves is added.
 TEST(Observer, DefaultLimitExceedsTheFrictionInYaw) {
   ConstraintContext context{.plant = paper_plant()};
   context.speed_mps = 1.0;
@@ -871,8 +872,10 @@ TEST(Observer, DefaultLimitExceedsTheFrictionInYaw) {
   EXPECT_DOUBLE_EQ(without_m, kObserverShare * moment_m);
   context.plant.yaw.coulomb = 0.8 * moment_m;
   EXPECT_DOUBLE_EQ(observer_limits(context).yaw_m, 0.9 * moment_m);
-  context.plant.yaw_scrub_m = 0.3 * moment_m;
-  EXPECT_DOUBLE_EQ(observer_limits(context).yaw_m, 1.2 * moment_m);
+  context.plant.yaw_scrub_m = 0.1 * moment_m;
+  EXPECT_DOUBLE_EQ(observer_limits(context).yaw_m, 0.95 * moment_m);
+  context.plant.yaw_scrub_m = 0.3 * moment_m;  // more friction than the moment of the weaker mode
+  EXPECT_DOUBLE_EQ(observer_limits(context).yaw_m, 1.1 * moment_m);
 }
 
 /// At the error of friction_error_rad(), the moment of the heading law equals the friction: the

@@ -116,10 +116,11 @@ inline constexpr const char* kPaperSource = "paper";
 struct ObserverSearch {
   Interval bandwidth_radps{0.2, 20.0};  ///< rad/s
   /// Largest yaw moment (m) and surge force (divided by F_max) that the observer compensates, > 0.
-  /// Default of the moment: the Coulomb friction in yaw c3 plus kObserverShare of the moment that
-  /// is left of the largest moment of the weaker mode (turning_authority_m()). With a limit below
-  /// c3, the vehicle would rest beside the commanded heading. Default of the force: kObserverShare
-  /// of the wheel force that is left at the largest u_d after overcoming the surge resistance g1.
+  /// Default of the moment: the dry friction in yaw (Coulomb friction c3 plus tyre scrub) plus
+  /// kObserverShare of what this friction leaves of the largest moment of the weaker mode
+  /// (turning_authority_m()). With a limit below the friction, the vehicle would rest beside the
+  /// commanded heading. Default of the force: kObserverShare of the wheel force that is left at the
+  /// largest u_d after overcoming the surge resistance g1.
   std::optional<double> yaw_max_m, surge_max;
 };
 inline constexpr double kObserverShare = 0.5;

@@ -88,9 +88,9 @@ AxisForces<double> observer_limits(const ConstraintContext& context) {
   const double thrust = driven_wheels(plant) * forces_beyond_dead_zone(context.own()).hi -
                         plant.surge(context.speed_mps);
   const double moment_m = turning_authority_m(context.own(), context.speed_mps);
-  const double friction_m = std::min(plant.yaw.coulomb, moment_m);
+  const double friction_m = plant.yaw.coulomb + plant.yaw_scrub_m;
   return {.surge = kObserverShare * thrust,
-          .yaw_m = friction_m + plant.yaw_scrub_m + kObserverShare * (moment_m - friction_m)};
+          .yaw_m = friction_m + kObserverShare * std::max(moment_m - friction_m, 0.0)};
 }
 
 Status limit_observer(const ConstraintContext& context, std::optional<ObserverSearch>& observer) {
