@@ -106,14 +106,15 @@ Result<ChosenConfig> config_of(const TuneCommand& command, Model& model) {
   const std::vector<Finding> findings = overridden_keys(config, command);
   TuneOptions& options = config.options;
   choose_observer(command.observer, options);
+  if (command.mode) options.mode = command.mode;
   if (options.scenarios.empty()) {
+    options.has_default_scenarios = true;
     AWMR_ASSIGN_OR_RETURN(options.scenarios,
                           default_tuning_scenarios(model, options, command.heading_rate_limit));
   }
   choose(command.allocation, model, options.scenarios);
   AWMR_RETURN_IF_ERROR(limit_heading_rate(command.heading_rate_limit, model, options.scenarios));
   if (command.nominal) options.nominal = true;
-  if (command.mode) options.mode = command.mode;
   if (command.one_set) options.one_set = true;
   if (command.draws) options.draws = *command.draws;
   if (command.baseline) {

@@ -878,6 +878,26 @@ TEST(Observer, DefaultLimitExceedsTheFrictionInYaw) {
   EXPECT_DOUBLE_EQ(observer_limits(context).yaw_m, 1.1 * moment_m);
 }
 
+/// An observer needs time to compensate dry friction. In differential mode, the friction width is
+/// narrow, so that no observer is needed.
+TEST(DefaultScenario, LastsUntilAnObserverHasCompensatedDryFriction) {
+  const auto duration_s = [](const Model& model, std::optional<YawMode> mode) {
+    return default_tuning_scenario(model, mode).value().duration_s;
+  };
+  for (const std::optional<YawMode> mode :
+       {std::optional<YawMode>{}, {YawMode::kDifferential}, {YawMode::kSteering}}) {
+    EXPECT_EQ(duration_s(paper_model(), mode), 20.0);
+  }
+  const Model model = with_friction(0.03);
+  EXPECT_GT(duration_s(model, {}), duration_s(model, YawMode::kDifferential));
+  EXPECT_EQ(duration_s(model, {}), duration_s(model, YawMode::kSteering));
+  EXPECT_LE(duration_s(model, YawMode::kCombined), duration_s(model, YawMode::kSteering));
+  TuneOptions options;
+  options.mode = YawMode::kDifferential;
+  EXPECT_EQ(default_tuning_scenarios(model, options).value()[0].duration_s,
+            duration_s(model, options.mode));
+}
+
 /// At the error of friction_error_rad(), the moment of the heading law equals the friction: the
 /// corrective term plus the fed-forward friction, both in proportion to the error.
 TEST(FrictionError, BalancesTheMomentOfTheHeadingLaw) {

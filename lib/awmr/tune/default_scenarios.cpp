@@ -10,9 +10,11 @@
 #include "awmr/model/fitted_law.h"
 #include "awmr/model/steady.h"
 #include "awmr/simulate/conditions.h"
+#include "awmr/simulate/meter.h"
 #include "awmr/simulate/validity.h"
 #include "awmr/tune/constraints.h"
 #include "awmr/tune/pole_placement.h"
+#include "awmr/tune/steering_rate.h"
 #include "awmr/tune/tune.h"
 #include "awmr/tune/tuning_context.h"
 
@@ -64,15 +66,35 @@ double speed_for(const Model& model, const Plant<double>& plant) {
   return rounded(std::max(speed, 1e-6));
 }
 
+/// Time, s, in which a disturbance observer with the bandwidth lambda/2 reduces the heading error
+/// that Coulomb friction leaves in a mode to the settling band of a turn by `angle_rad`. At the
+/// start of a turn in the other direction, the observer still compensates the friction of the last
+/// turn, so the error is at most twice friction_error_rad(). 0 for steady errors within the band,
+/// which need no observer, and for differential mode, whose gains need not limit the rate of the
+/// steering.
+double friction_time_s(const Gains<double>& gains, const ConstraintContext& context, YawMode mode,
+                       double angle_rad) {
+  if (!context.has_steering || mode == YawMode::kDifferential) return 0.0;
+  const double error_rad = friction_error_rad(gains, context.plant, mode);
+  const double band_rad =
+      std::max(radians(meter::kSettledLeastDeg), meter::kSettledShare * angle_rad);
+  if (error_rad <= band_rad) return 0.0;
+  return 2.0 / gains.heading.lambda * std::log(std::min(2.0 * error_rad, angle_rad) / band_rad);
+}
+
 /// Time, s, in which the heading error decays to 2 % with gains by pole placement under the default
-/// limits: 4/lambda + epsilon/mu. 0 if the latency is too long for these limits.
-double decay_time_s(const Model& model, const Plant<double>& plant, const Scenario& scenario) {
+/// limits: 4/lambda + epsilon/mu, plus friction_time_s() of `mode` or, if it is absent, of steering
+/// mode, in which friction leaves the largest error. 0 if the latency is too long for these limits.
+double decay_time_s(const Model& model, const Plant<double>& plant, const Scenario& scenario,
+                    std::optional<YawMode> mode) {
   ConstraintContext context = context_of({}, plant, model.vehicle, {scenario});
   add_conditions(conditions_of(model.vehicle), context);
   limit_steering_rate(context);
   if (context.latency_s > kMaxLatencySamples * context.sample_time_s) return 0.0;
-  const HeadingGains<double> heading = place_poles(context).heading;
-  return 4.0 / heading.lambda + heading.epsilon / heading.mu;
+  const Gains<double> gains = place_poles(context);
+  const HeadingGains<double>& heading = gains.heading;
+  return 4.0 / heading.lambda + heading.epsilon / heading.mu +
+         friction_time_s(gains, context, mode.value_or(YawMode::kSteering), context.step_rad);
 }
 
 /// Returns the time, s, that the weaker mode takes to turn by an angle:
@@ -127,11 +149,11 @@ Scenario scenario_of(const Manoeuvre& m) {
                         .name = fmt::format("heading_{:g}_{:g}", m.step_deg, -m.step_deg)});
 }
 
-Result<Manoeuvre> manoeuvre_for(const Model& model) {
+Result<Manoeuvre> manoeuvre_for(const Model& model, std::optional<YawMode> mode) {
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   Manoeuvre m = turn_for(model, plant);
   const double settled_s = turning_time_s(model, plant, m.speed_mps, radians(2.0 * m.step_deg)) +
-                           decay_time_s(model, plant, scenario_of(m));
+                           decay_time_s(model, plant, scenario_of(m), mode);
   m.hold_s = std::max(m.hold_s, std::min(std::ceil(settled_s), kLongestDecay_s));
   return m;
 }
@@ -143,15 +165,15 @@ Result<Scenario> examined_scenario(const Model& model) {
   return scenario_of(turn_for(model, plant));
 }
 
-Result<Scenario> default_tuning_scenario(const Model& model) {
-  AWMR_ASSIGN_OR_RETURN(const Manoeuvre m, manoeuvre_for(model));
+Result<Scenario> default_tuning_scenario(const Model& model, std::optional<YawMode> mode) {
+  AWMR_ASSIGN_OR_RETURN(const Manoeuvre m, manoeuvre_for(model, mode));
   return scenario_of(m);
 }
 
 Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
                                                        const TuneOptions& options,
                                                        const HeadingRateChoice& choice) {
-  AWMR_ASSIGN_OR_RETURN(Scenario stepped, default_tuning_scenario(model));
+  AWMR_ASSIGN_OR_RETURN(Scenario stepped, default_tuning_scenario(model, options.mode));
   std::vector<Scenario> scenarios{std::move(stepped)};
   const std::optional<double> measured_degps = measured_yaw_rate_degps(model);
   if (choice.empty() && measured_degps) {
@@ -176,8 +198,8 @@ Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
   return scenarios;
 }
 
-Result<Scenario> held_out_scenario(const Model& model) {
-  AWMR_ASSIGN_OR_RETURN(const Manoeuvre m, manoeuvre_for(model));
+Result<Scenario> held_out_scenario(const Model& model, std::optional<YawMode> mode) {
+  AWMR_ASSIGN_OR_RETURN(const Manoeuvre m, manoeuvre_for(model, mode));
   return heading_steps({2.0 * m.step_deg, 0.0},
                        {.hold_s = m.hold_s,
                         .speed_mps = 0.7 * m.speed_mps,

@@ -1,5 +1,6 @@
 #include "awmr/tune/own_gains.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -34,12 +35,12 @@ Tuning in_mode(Tuning tuning, YawMode mode) {
 }
 
 /// True if the gains `own` have an objective that is lower by at least 5 % than with `common`, and
-/// at least as many runs settle. `objective`: objective of the runs of one mode.
+/// at least as many runs settle, or 95 % of them. `objective`: objective of the runs of one mode.
 bool is_better(const Gains<double>& own, const Gains<double>& common, const Objective& objective) {
   const double limit = kWorthOwnGains * objective(common).objective;
   const ObjectiveSetting& runs = objective.setting();
   return objective(own).objective <= limit &&
-         settled_share(runs, own) >= settled_share(runs, common);
+         settled_share(runs, own) >= std::min(kSettledShare, settled_share(runs, common));
 }
 
 /// Replaces the objectives and scores of `tuning` (over all modes) by those in the runs of one
@@ -87,12 +88,15 @@ Result<std::optional<Tuning>> with_own_gains(const ObjectiveSetting& setting,
   for (const YawMode mode : setting.modes()) {
     Result<Tuning> own = steps.search(mode);
     Baseline baseline = requested ? requested->in(mode) : common.baseline;
-    const Objective objective(runs_in(setting, {}, mode), baseline.gains.common());
-    const bool is_used = own && is_better(own->gains, common.gains, objective);
+    AWMR_ASSIGN_OR_RETURN(ObjectiveSetting of_mode, steps.setting(mode));
+    const bool is_used =
+        own && is_better(own->gains, common.gains,
+                         Objective(runs_in(std::move(of_mode), {}, mode), baseline.gains.common()));
     is_any_better = is_any_better || is_used;
     if (is_used) {
       all.push_back(*std::move(own));
     } else {
+      const Objective objective(runs_in(setting, {}, mode), baseline.gains.common());
       AWMR_ASSIGN_OR_RETURN(Tuning same,
                             kept(common, objective, held_out, std::move(baseline), steps));
       all.push_back(std::move(same));

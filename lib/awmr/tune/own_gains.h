@@ -12,7 +12,10 @@ namespace awmr {
 
 /// Steps for one mode, in the setting of the search for all modes.
 struct ModeTuning {
-  /// Tunes for the mode alone.
+  /// Setting of a search for the mode alone. Its scenarios can be shorter than those of the search
+  /// for all modes (TuneOptions::has_default_scenarios).
+  std::function<Result<ObjectiveSetting>(YawMode)> setting;
+  /// Tunes for the mode alone, in `setting`.
   std::function<Result<Tuning>(YawMode)> search;
   /// Computes again those results for a mode (Tuning::mode) that depend on its baseline,
   /// Tuning::baseline: the limits that it violates, and the runs of newly drawn vehicles.
@@ -20,9 +23,10 @@ struct ModeTuning {
 };
 
 /// Searches gains for each mode alone. A mode keeps the gains of `common` if its search fails, if
-/// its objective falls by less than 5 %, or if fewer of its runs settle. Returns one Tuning with
-/// all modes: the gains of combined mode in Tuning::gains, those of the other modes in Tuning::own,
-/// and a certificate for all modes. Empty if all modes keep the gains of `common`.
+/// its objective falls by less than 5 %, or if fewer of its runs settle, unless 95 % settle. Both
+/// are compared in ModeTuning::setting. Returns one Tuning with all modes: the gains of combined
+/// mode in Tuning::gains, those of the other modes in Tuning::own, and a certificate for all modes.
+/// Empty if all modes keep the gains of `common`.
 ///
 /// `setting`: the setting in which `common` was tuned for all modes. `held_out`: a scenario that
 /// the searches do not use. `requested`: TuneOptions::baseline; if the file of the baseline has

@@ -94,9 +94,6 @@ std::vector<Gains<double>> starts_of(const TuneOptions& options, const Constrain
   return starts;
 }
 
-/// An observer is added only if it increases the share of settled runs by at least this.
-constexpr double kWorthIt = 0.05;
-
 /// Repeats the search with an observer. `gains`: the result without observer or, if no gains meet
 /// the limits, those nearest to the limits. The result is empty
 ///   - if no observer may be added (TuneOptions::adds_observer);
@@ -191,12 +188,17 @@ struct ModesAlone {
 ///   - the tuned gains, made faster by the square root and the fourth root of a ratio: lambda by
 ///     pole placement for this mode, divided by lambda by pole placement for all modes. These gains
 ///     need not meet the constraints, because the search for one mode ensures that.
+/// With an observer, all modes have the friction width of the steering, which is wide if the compass
+/// is noisy. With a width of its own, a mode corrects dry friction without waiting for the observer,
+/// so gains for each mode alone can then be better in any case.
 ModesAlone modes_alone(const Searched& s) {
   constexpr double kMuchFaster = 0.75;  // of the settling time
   constexpr double kBetter = 0.97;      // of the objective
   ModesAlone found;
   if (s.setting.modes().size() < 2) return found;
   const Gains<double>& tuned = s.settled.gains;
+  found.is_any_better = tuned.observer.is_on() &&
+                        tuned.heading.friction_width_radps > feed_forward_rest_speed<double>();
   const Gains<double> common_poles =
       tuned.observer.is_on() ? starting_poles(s.context, tuned.observer).front() : s.poles;
   for (const YawMode mode : s.setting.modes()) {

@@ -18,6 +18,10 @@ namespace awmr {
 /// True if the simulation of a run did not fail and the vehicle settled on every commanded heading.
 bool has_settled(const ModeScore& run);
 
+/// An observer is used only if it increases the share of settled runs by at least this, or if the
+/// runs settle anyway.
+inline constexpr double kWorthIt = 0.05;
+
 /// Share of the runs of the setting that settle with these gains, [0, 1].
 double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains);
 

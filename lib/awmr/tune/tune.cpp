@@ -275,6 +275,49 @@ Result<TuningProblem> problem_of(const Model& model, const DrawnVehicle& nominal
   return problem;
 }
 
+/// Time of the scenarios in a search for one mode alone, as a share of that in a search for all
+/// modes (TuneOptions::has_default_scenarios).
+Result<double> time_share(const Model& model, const TuneOptions& options, YawMode mode) {
+  if (!options.has_default_scenarios) return 1.0;
+  AWMR_ASSIGN_OR_RETURN(const Scenario all, default_tuning_scenario(model));
+  AWMR_ASSIGN_OR_RETURN(const Scenario alone, default_tuning_scenario(model, mode));
+  return alone.duration_s / all.duration_s;
+}
+
+/// Inputs of the searches for one mode alone.
+struct ModeSearches {
+  const Model& model;
+  const TuningProblem& problem;  ///< of the search for all modes
+  const TuneOptions& options;
+  /// `options` with an observer, if the gains for all modes have one: without it, a single mode would
+  /// not reject constant disturbances.
+  TuneOptions observed;
+
+  /// The problem of a search for one mode.
+  Result<TuningProblem> problem_in(YawMode mode) const {
+    TuningProblem of_mode = problem;
+    AWMR_ASSIGN_OR_RETURN(const double share, time_share(model, options, mode));
+    of_mode.setting = in_more_time(std::move(of_mode.setting), share);
+    return of_mode;
+  }
+
+  /// Tunes for one mode. If runs do not settle with the observer, because it makes the commands
+  /// noisier, and an observer was not requested, also tunes without it, and returns the result
+  /// without it if the share of settled runs is larger by at least kWorthIt.
+  Result<Tuning> search(YawMode mode) const {
+    AWMR_ASSIGN_OR_RETURN(const TuningProblem of_mode, problem_in(mode));
+    AWMR_ASSIGN_OR_RETURN(const Scenario held_out, held_out_scenario(model, mode));
+    Result<Tuning> tuning = tune_for(mode, model, of_mode, observed, held_out);
+    if (options.observer || !observed.observer) return tuning;
+    const ObjectiveSetting runs = runs_in(of_mode.setting, {}, mode);
+    const double share = tuning ? settled_share(runs, tuning->gains) : 0.0;
+    if (share >= kSettledShare) return tuning;
+    Result<Tuning> other = tune_for(mode, model, of_mode, options, held_out);
+    const bool is_worth_it = other && settled_share(runs, other->gains) >= share + kWorthIt;
+    return is_worth_it ? std::move(other) : std::move(tuning);
+  }
+};
+
 /// Tunes for each mode alone and returns the gains by mode. If no mode gets gains of its own,
 /// returns `common`, the result of tuning for all modes together.
 Result<Tuning> tune_by_mode(const Model& model, const TuningProblem& problem,
@@ -284,15 +327,17 @@ Result<Tuning> tune_by_mode(const Model& model, const TuningProblem& problem,
         "a mode may settle much faster with its own gains, so gains are also searched for each "
         "mode, which takes one to three times as long as the first search");
   }
-  // If the gains for all modes have an observer, the gains of each single mode need one as well:
-  // without it, this mode would not reject constant disturbances.
-  TuneOptions of_modes = options;
-  if (common.gains.observer.is_on() && !of_modes.observer) {
-    of_modes.observer.emplace();
-    AWMR_RETURN_IF_ERROR(limit_observer(problem.context, of_modes.observer));
+  ModeSearches searches{model, problem, options, options};
+  if (common.gains.observer.is_on() && !options.observer) {
+    searches.observed.observer.emplace();
+    AWMR_RETURN_IF_ERROR(limit_observer(problem.context, searches.observed.observer));
   }
   const ModeTuning steps{
-      .search = [&](YawMode mode) { return tune_for(mode, model, problem, of_modes, held_out); },
+      .setting = [&](YawMode mode) -> Result<ObjectiveSetting> {
+        AWMR_ASSIGN_OR_RETURN(TuningProblem of_mode, searches.problem_in(mode));
+        return std::move(of_mode.setting);
+      },
+      .search = [&](YawMode mode) { return searches.search(mode); },
       .compare_with_baseline =
           [&](Tuning& tuning) { return compare_with_baseline(model, problem, options, tuning); }};
   AWMR_ASSIGN_OR_RETURN(std::optional<Tuning> own,
@@ -320,9 +365,10 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
   TuneOptions options = requested;
   AWMR_RETURN_IF_ERROR(check_options(options, model.vehicle));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
-  AWMR_ASSIGN_OR_RETURN(const Scenario held_out, held_out_scenario(model));
+  AWMR_ASSIGN_OR_RETURN(const Scenario held_out, held_out_scenario(model, options.mode));
   std::vector<Scenario> scenarios = options.scenarios;
   if (scenarios.empty()) {
+    options.has_default_scenarios = true;
     AWMR_ASSIGN_OR_RETURN(scenarios, default_tuning_scenarios(model, options));
   }
   const DrawnVehicle nominal{plant, model.vehicle.wheel_force};

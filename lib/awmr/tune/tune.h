@@ -188,7 +188,7 @@ struct TuneOptions {
   /// risk).
   double tail_share = 0.2;
   TuningLimits limits = {};
-  /// The only mode to tune for; absent: all modes. Has no effect on the default scenarios.
+  /// The only mode to tune for; absent: all modes.
   std::optional<YawMode> mode = {};
   /// Gains that the objective compares with. Absent: the gains with the fastest poles that the
   /// constraints allow (pole_placement.h).
@@ -212,6 +212,9 @@ struct TuneOptions {
   /// Scenarios in which the gains are tuned. Each needs heading guidance and a unique name. Empty:
   /// the default scenarios (default_tuning_scenarios()).
   std::vector<Scenario> scenarios;
+  /// true: `scenarios` are the default ones. If dry friction in yaw makes them long, the searches for
+  /// one mode alone shorten them to the time of default_tuning_scenario() for this mode.
+  bool has_default_scenarios = false;
   GainBounds bounds;
   /// search of an observer; absent: see adds_observer
   std::optional<ObserverSearch> observer = {};
@@ -522,7 +525,8 @@ struct Tuning {
   std::vector<UnsettledRuns> unsettled;
   std::vector<ModeAlone> alone;  ///< see ModeAlone; empty if only one mode is tuned
   /// true: in one of several modes, faster gains lower the objective of this mode by 3 % or more,
-  /// compared with the tuned gains.
+  /// compared with the tuned gains; or the tuned gains have an observer and, in all modes, the
+  /// friction width that steering mode needs.
   bool is_mode_better_alone = false;
   std::optional<RobustTuning> robust;  ///< absent for nominal gains
 
@@ -538,12 +542,15 @@ struct Tuning {
 ///   hold  time for which each heading is commanded: 1.6 times the time that the weaker mode takes
 ///       to turn by 2 psi without exceeding the measured yaw rates, rounded to 5, 10, 15 or 20 s.
 ///       At least the time of the turn plus 4/lambda + epsilon/mu, in which the error decays to 2
-///       %, with the gains of pole placement under the default limits. This minimum is rounded up
-///       to 1 s. At most 60 s
+///       %, with the gains of pole placement under the default limits. If Coulomb friction in yaw
+///       leaves these gains a larger error than the settling band, the time in which an observer
+///       of bandwidth lambda/2 removes this error is added. It depends on `mode` (absent: steering
+///       mode, which needs the longest time) and is 0 in differential mode. This minimum is rounded
+///       up to 1 s. At most 60 s
 /// The paper's vehicle has 30 then -30 deg at 1 m/s, 10 s each. [paper 4.3] Errors (input): those
 /// of Model::plant().
-Result<Scenario> default_tuning_scenario(const Model& model);
-/// Returns the default tuning scenarios:
+Result<Scenario> default_tuning_scenario(const Model& model, std::optional<YawMode> mode = {});
+/// Returns the default tuning scenarios for TuneOptions::mode:
 ///   1. default_tuning_scenario(), with heading steps. It favours fast gains, and exceeds the
 ///      measured yaw rates.
 ///   2. The same with the heading rate limited to the highest measured yaw rate. It favours gains
@@ -565,7 +572,7 @@ inline constexpr std::string_view kLedSuffix = "_led";
 /// Returns the scenario in which the tuned gains are evaluated after the search: twice the first
 /// heading of default_tuning_scenario(), then the heading 0, at 0.7 of the speed of that scenario.
 /// Errors (input): those of Model::plant().
-Result<Scenario> held_out_scenario(const Model& model);
+Result<Scenario> held_out_scenario(const Model& model, std::optional<YawMode> mode = {});
 
 /// Tunes the gains by a global search, then local searches (search.h). Deterministic: model,
 /// options and the instruction set of the processor (Tuning::arithmetic) determine every bit of the
