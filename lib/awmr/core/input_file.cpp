@@ -2,6 +2,7 @@
 
 #include <map>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "awmr/core/hash.h"
@@ -10,24 +11,39 @@ namespace awmr {
 namespace {
 
 /// Hash of the bytes last read from each input file, by the path that the user gave.
-std::mutex hashes_mutex;
-std::map<std::string, std::string> hashes;
+class Notes {
+ public:
+  void put(const std::string& path, std::string sha256) {
+    const std::scoped_lock lock(mutex_);
+    hashes_[path] = std::move(sha256);
+  }
+  std::optional<std::string> find(const std::string& path) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = hashes_.find(path);
+    return found == hashes_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::string> hashes_;
+};
+
+Notes& notes() {
+  static Notes all;
+  return all;
+}
 
 }  // namespace
 
 Result<std::string> read_input(const std::filesystem::path& path, std::size_t max_bytes) {
   AWMR_ASSIGN_OR_RETURN(std::string bytes, read_file(path, max_bytes));
-  std::string hash = sha256_hex(bytes);
-  const std::lock_guard lock(hashes_mutex);
-  hashes[path.string()] = std::move(hash);
+  notes().put(path.string(), sha256_hex(bytes));
   return bytes;
 }
 
 Result<InputFile> input_file(const std::filesystem::path& path) {
-  {
-    const std::lock_guard lock(hashes_mutex);
-    const auto found = hashes.find(path.string());
-    if (found != hashes.end()) return InputFile{path.filename().string(), found->second};
+  if (auto hash = notes().find(path.string())) {
+    return InputFile{path.filename().string(), std::move(*hash)};
   }
   AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));
   return InputFile{path.filename().string(), sha256_hex(bytes)};
