@@ -11,7 +11,7 @@ namespace awmr {
 namespace {
 
 /// Hash of the bytes last read from each input file, by the path that the user gave.
-class Notes {
+class InputHashes {
  public:
   void put(const std::string& path, std::string sha256) {
     const std::scoped_lock lock(mutex_);
@@ -28,8 +28,9 @@ class Notes {
   std::map<std::string, std::string> hashes_;
 };
 
-Notes& notes() {
-  static Notes all;
+/// A local static, because static initialisers of other files may already read input files.
+InputHashes& input_hashes() {
+  static InputHashes all;
   return all;
 }
 
@@ -37,12 +38,12 @@ Notes& notes() {
 
 Result<std::string> read_input(const std::filesystem::path& path, std::size_t max_bytes) {
   AWMR_ASSIGN_OR_RETURN(std::string bytes, read_file(path, max_bytes));
-  notes().put(path.string(), sha256_hex(bytes));
+  input_hashes().put(path.string(), sha256_hex(bytes));
   return bytes;
 }
 
 Result<InputFile> input_file(const std::filesystem::path& path) {
-  if (auto hash = notes().find(path.string())) {
+  if (auto hash = input_hashes().find(path.string())) {
     return InputFile{path.filename().string(), std::move(*hash)};
   }
   AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));

@@ -165,6 +165,8 @@ class JsonObject {
 
  private:
   const Json* find(std::string_view key, bool required);
+  /// The array under the key; null, with a fault, if the key is missing or has another value.
+  /// `elements`: what the array should have, for the fault ("numbers").
   const Json* array(std::string_view key, std::string_view elements);
   /// Adds a fault for the value of the key: "expected ..., found ...".
   void wrong(ErrorCode code, std::string_view key, std::string_view expected, const Json& found);

@@ -54,7 +54,6 @@ std::optional<Interval> JsonObject::nullable_interval(std::string_view key) {
   return interval(key);
 }
 
-/// The array under the key; null, with a fault, if the key is missing or has another value.
 const Json* JsonObject::array(std::string_view key, std::string_view elements) {
   const Json* value = find(key, true);
   if (value == nullptr || value->is_array()) return value;

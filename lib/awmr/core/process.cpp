@@ -175,13 +175,14 @@ Result<ProgramEnd> run_program(const ProgramCall& call) {
   };
   int ends[2] = {-1, -1};
   if (::pipe2(ends, O_CLOEXEC) != 0) return failed(errno);
-  const Descriptor output(ends[0]);
+  const Descriptor read_end(ends[0]);
   const pid_t process = [&] {
-    const Descriptor input(ends[1]);  // closed here, so that the pipe ends when the program ends
-    return start(call, input.number());
+    // Closed on return, so that reading ends when the program ends.
+    const Descriptor write_end(ends[1]);
+    return start(call, write_end.number());
   }();
   if (process < 0) return failed(-process);
-  return wait_for(process, output.number(), call.time_limit_s);
+  return wait_for(process, read_end.number(), call.time_limit_s);
 }
 
 void end_running_programs() {

@@ -228,13 +228,17 @@ void identify_mass(const Vehicle& vehicle, const TrialData& data, const Identify
 }
 
 /// Removes `scale-mismatch` of each channel whose scale the log fit estimates (`sensor-scale`),
-/// because the fit estimates it more precisely.
+/// because the fit estimates it more precisely. Keeps it if it also proposes a mapping of the
+/// heading, whose scale no fit estimates.
 void drop_rough_scales(const EstimatorReport& fit, std::vector<Finding>& findings) {
   for (const EstimatorParameter& parameter : fit.parameters) {
     if (!parameter.name.starts_with(kSensorScalePrefix) || !parameter.std_error) continue;
     const std::string column = parameter.name.substr(kSensorScalePrefix.size());
     std::erase_if(findings, [&](const Finding& finding) {
-      return finding.code == "scale-mismatch" && finding.message.find(column) != std::string::npos;
+      const auto maps = [&](const std::string& name) {
+        return finding.message.find(name + "=") != std::string::npos;
+      };
+      return finding.code == "scale-mismatch" && maps(column) && !maps("heading_deg");
     });
   }
 }

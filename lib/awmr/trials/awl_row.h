@@ -49,7 +49,7 @@ struct LogRow {
   uint8_t fault;  ///< SafetyFault bits
   /// Limits and fault of this step. Bit 0: tau_speed was limited; bit 1: the steering angle was
   /// limited; bit 2: a wheel force was limited; bit 3: tau_speed was too small to steer. Bits 4 to
-  /// 7: SensorFault (sensor_fault.h) modulo 16.
+  /// 7: SensorFault (emit/board/sensor_fault.h) modulo 16.
   uint8_t limits;
   /// Bits 0 to 4: cause of the last reset of the board, the same in every row. Bit 7: the
   /// SensorFault in `limits` is 16 or more.

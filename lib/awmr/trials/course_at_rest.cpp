@@ -17,6 +17,7 @@ namespace {
 /// The vehicle counts as at rest below this speed, or below a tenth of its highest speed if that is
 /// smaller.
 constexpr double kRest_mps = 0.1;
+
 /// Result of course_at_rest().
 struct CourseAtRest {
   double rest_mps = 0.0;          ///< the vehicle counts as at rest below this speed
@@ -28,8 +29,8 @@ double difference(double a_rad, double b_rad) { return std::abs(wrap_angle(a_rad
 
 /// If the heading changes by more than this from one reading to the next, it is a jump of a GPS
 /// course: 20 deg, or five standard deviations of such changes by the noise of the heading, if that
-/// is more. Turns on the spot change the heading less. The noise is that of the moving vehicle, from
-/// second differences, which a constant yaw rate does not change.
+/// is more. Turns on the spot change the heading less. The noise is that of the moving vehicle,
+/// from second differences, which a constant yaw rate does not change.
 double far_rad(std::span<const double> heading_rad, std::span<const std::size_t> present,
                const auto& rests) {
   constexpr double kFar_rad = 20.0 * pi<double>() / 180.0;
@@ -47,6 +48,7 @@ double far_rad(std::span<const double> heading_rad, std::span<const std::size_t>
   return std::max(kFar_rad, kStandardDeviations * change_std);
 }
 
+/// Finds the rows with an invalid heading (course_at_rest.h).
 CourseAtRest course_at_rest(std::span<const double> speed_mps, std::span<const double> heading_rad,
                             std::span<const std::size_t> present) {
   CourseAtRest found;

@@ -109,13 +109,13 @@ Result<Contents> contents_of(std::string_view bytes, const std::string& file) {
     return {};
   };
   AWMR_ASSIGN_OR_RETURN(contents.skipped, for_each_record(bytes, formats, define));
-  const auto count = [&](std::uint8_t type, std::string_view record, std::size_t) -> Status {
+  const auto add_topic = [&](std::uint8_t type, std::string_view record, std::size_t) -> Status {
     if (type == kFormatType) return {};
     const dataflash::Format& format = formats.at(type);
     if (format.time) contents.topics.emplace(type, instance_in(format, record));
     return {};
   };
-  AWMR_RETURN_IF_ERROR(for_each_record(bytes, formats, count));
+  AWMR_RETURN_IF_ERROR(for_each_record(bytes, formats, add_topic));
   return contents;
 }
 

@@ -2,7 +2,7 @@
 /// Private to this folder.
 ///
 /// A reader of signals returns the names of all signals of the file, and the values of the
-/// requested ones. More than kMaxSignals signals are an error.
+/// requested ones. In ULog and DataFlash, more than kMaxSignals signals are an error.
 #pragma once
 
 #include <filesystem>
@@ -59,7 +59,7 @@ struct CsvTopics {
 Result<CsvTopics> read_csv_topics(std::span<const std::filesystem::path> paths,
                                   std::span<const ColumnMapping> mappings, const Wanted& wanted);
 
-/// Rows of a file that is not text.
+/// Columns of a log whose rows are not lines of text (`.awl`, JSON of SysId).
 struct ColumnLog {
   std::vector<std::string> header = {};           ///< column names
   std::vector<std::vector<double>> columns = {};  ///< by column, then by row

@@ -15,7 +15,9 @@ namespace awmr {
 
 /// A unit that a column of a table may have by mistake.
 struct ColumnUnit {
-  double times;             ///< the checked rate is too large by this factor with this unit
+  /// The checked quantity (yaw rate, or ratio of printed to timed rate) is this times the right one
+  /// if the column has this unit.
+  double times;
   std::string_view column;  ///< column to correct
   double factor;            ///< corrected value = value in the file times this
   std::string_view words;

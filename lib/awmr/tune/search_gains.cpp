@@ -188,9 +188,9 @@ struct ModesAlone {
 ///   - the tuned gains, made faster by the square root and the fourth root of a ratio: lambda by
 ///     pole placement for this mode, divided by lambda by pole placement for all modes. These gains
 ///     need not meet the constraints, because the search for one mode ensures that.
-/// With an observer, all modes have the friction width of the steering, which is wide if the compass
-/// is noisy. With a width of its own, a mode corrects dry friction without waiting for the observer,
-/// so gains for each mode alone can then be better in any case.
+/// With an observer, all modes have the friction width of the steering, which is wide if the
+/// compass is noisy. With a width of its own, a mode corrects dry friction without waiting for the
+/// observer, so gains for each mode alone can then be better in any case.
 ModesAlone modes_alone(const Searched& s) {
   constexpr double kMuchFaster = 0.75;  // of the settling time
   constexpr double kBetter = 0.97;      // of the objective

@@ -32,7 +32,7 @@ std::string manoeuvre(const Scenario& scenario) {
 std::optional<SettlingChange> more_time(const ObjectiveSetting& setting, const Gains<double>& gains,
                                         double share) {
   for (const double factor : {2.0, kMostTime}) {
-    const ObjectiveSetting longer = in_more_time(setting, factor);
+    const ObjectiveSetting longer = with_times_scaled(setting, factor);
     if (!enough_settle(longer, gains, share)) continue;
     return SettlingChange{
         "/scenarios",
@@ -100,7 +100,7 @@ double settled_share_without_noise(ObjectiveSetting setting, const Gains<double>
   return settled_share(setting, gains);
 }
 
-ObjectiveSetting in_more_time(ObjectiveSetting setting, double factor) {
+ObjectiveSetting with_times_scaled(ObjectiveSetting setting, double factor) {
   for (Scenario& scenario : setting.scenarios) {
     scenario.duration_s *= factor;
     for (HeadingStep& step : std::get<HeadingSteps>(scenario.guidance).steps) step.t_s *= factor;

@@ -36,11 +36,11 @@ double settled_share_without_noise(ObjectiveSetting setting, const Gains<double>
 /// and without goals.
 ObjectiveSetting runs_in(ObjectiveSetting setting, const std::string& scenario, YawMode mode);
 
-/// Largest factor of in_more_time() that is tried. With a larger one, the search for remedies takes
-/// longer.
+/// Largest factor of with_times_scaled() that is tried. With a larger one, the search for remedies
+/// takes longer.
 inline constexpr double kMostTime = 4.0;
 /// Returns the setting with all times of its scenarios multiplied by `factor`.
-ObjectiveSetting in_more_time(ObjectiveSetting setting, double factor);
+ObjectiveSetting with_times_scaled(ObjectiveSetting setting, double factor);
 
 /// Returns the setting with only the nominal vehicle and the first drawn vehicles.
 ObjectiveSetting on_few_vehicles(ObjectiveSetting setting);

@@ -33,8 +33,8 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider = 0.0);
 
-/// Largest heading error, rad, at which Coulomb friction c3 in yaw can hold the vehicle, if the gains
-/// have no observer:
+/// Largest heading error, rad, at which Coulomb friction c3 in yaw can hold the vehicle, if the
+/// gains have no observer:
 ///   c3/(I'z lambda (mu/eps + c3/(I'z w0)))
 /// I'z: yaw inertia (c3 and I'z divided by F_max); lambda, mu, eps: gains of the heading law; w0:
 /// friction width of the mode. An observer makes this error decay.

@@ -289,15 +289,15 @@ struct ModeSearches {
   const Model& model;
   const TuningProblem& problem;  ///< of the search for all modes
   const TuneOptions& options;
-  /// `options` with an observer, if the gains for all modes have one: without it, a single mode would
-  /// not reject constant disturbances.
+  /// `options` with an observer, if the gains for all modes have one: without it, a single mode
+  /// would not reject constant disturbances.
   TuneOptions observed;
 
   /// The problem of a search for one mode.
   Result<TuningProblem> problem_in(YawMode mode) const {
     TuningProblem of_mode = problem;
     AWMR_ASSIGN_OR_RETURN(const double share, time_share(model, options, mode));
-    of_mode.setting = in_more_time(std::move(of_mode.setting), share);
+    of_mode.setting = with_times_scaled(std::move(of_mode.setting), share);
     return of_mode;
   }
 
@@ -312,7 +312,9 @@ struct ModeSearches {
     const ObjectiveSetting runs = runs_in(of_mode.setting, {}, mode);
     const double share = tuning ? settled_share(runs, tuning->gains) : 0.0;
     if (share >= kSettledShare) return tuning;
-    Result<Tuning> other = tune_for(mode, model, of_mode, options, held_out);
+    TuneOptions without = options;
+    without.adds_observer = false;
+    Result<Tuning> other = tune_for(mode, model, of_mode, without, held_out);
     const bool is_worth_it = other && settled_share(runs, other->gains) >= share + kWorthIt;
     return is_worth_it ? std::move(other) : std::move(tuning);
   }

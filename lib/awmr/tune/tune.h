@@ -212,8 +212,8 @@ struct TuneOptions {
   /// Scenarios in which the gains are tuned. Each needs heading guidance and a unique name. Empty:
   /// the default scenarios (default_tuning_scenarios()).
   std::vector<Scenario> scenarios;
-  /// true: `scenarios` are the default ones. If dry friction in yaw makes them long, the searches for
-  /// one mode alone shorten them to the time of default_tuning_scenario() for this mode.
+  /// true: `scenarios` are the default ones. If dry friction in yaw makes them long, the searches
+  /// for one mode alone shorten them to the time of default_tuning_scenario() for this mode.
   bool has_default_scenarios = false;
   GainBounds bounds;
   /// search of an observer; absent: see adds_observer
@@ -571,6 +571,7 @@ inline constexpr double kPush = 0.1;
 inline constexpr std::string_view kLedSuffix = "_led";
 /// Returns the scenario in which the tuned gains are evaluated after the search: twice the first
 /// heading of default_tuning_scenario(), then the heading 0, at 0.7 of the speed of that scenario.
+/// The durations are those of default_tuning_scenario() for `mode`; empty: for all modes.
 /// Errors (input): those of Model::plant().
 Result<Scenario> held_out_scenario(const Model& model, std::optional<YawMode> mode = {});
 

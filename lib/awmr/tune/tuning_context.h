@@ -30,12 +30,12 @@ void add_conditions(const LoopConditions& conditions, ConstraintContext& context
 /// Sets the limit of the steering rate to its default, if it is absent (TuningLimits).
 void limit_steering_rate(ConstraintContext& context);
 
-/// Default limits of an observer (ObserverSearch), in surge and in yaw. At most 0 if the wheels have
-/// no force left at the speed of the context.
+/// Default limits of an observer (ObserverSearch), in surge and in yaw. At most 0 if the wheels
+/// have no force left at the speed of the context.
 AxisForces<double> observer_limits(const ConstraintContext& context);
 
-/// Sets the limits of an observer that are absent to observer_limits(). Errors (input): at the speed of the scenarios, the
-/// wheels have no force left to compensate a disturbance.
+/// Sets the limits of an observer that are absent to observer_limits(). Errors (input): at the
+/// speed of the scenarios, the wheels have no force left to compensate a disturbance.
 Status limit_observer(const ConstraintContext& context, std::optional<ObserverSearch>& observer);
 
 }  // namespace awmr

@@ -26,12 +26,12 @@ std::optional<NoiseEffect> noise_effect(const ObjectiveSetting& setting,
                                         const Gains<double>& gains) {
   const double without = settled_share_without_noise(setting, gains);
   if (without >= kSettledShare) return NoiseEffect{without, 1.0};
-  const ObjectiveSetting longer = in_more_time(setting, kMostTime);
-  const double without_in_more_time = settled_share_without_noise(longer, gains);
-  if (without_in_more_time < kSettledShare || enough_settle(longer, gains, kSettledShare)) {
+  const ObjectiveSetting longer = with_times_scaled(setting, kMostTime);
+  const double without_with_times_scaled = settled_share_without_noise(longer, gains);
+  if (without_with_times_scaled < kSettledShare || enough_settle(longer, gains, kSettledShare)) {
     return std::nullopt;
   }
-  return NoiseEffect{without_in_more_time, kMostTime};
+  return NoiseEffect{without_with_times_scaled, kMostTime};
 }
 
 namespace {

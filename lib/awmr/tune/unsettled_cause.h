@@ -10,8 +10,8 @@
 namespace awmr {
 
 /// Returns the effect of Coulomb friction in yaw if it keeps runs of this mode from settling: at
-/// least kSettledShare of them settle if neither the vehicles nor the control law have this friction.
-/// Precondition: fewer than kSettledShare of the runs settle.
+/// least kSettledShare of them settle if neither the vehicles nor the control law have this
+/// friction. Precondition: fewer than kSettledShare of the runs settle.
 std::optional<FrictionEffect> friction_effect(ObjectiveSetting setting, const Gains<double>& gains,
                                               YawMode mode);
 

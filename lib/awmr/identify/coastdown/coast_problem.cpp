@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "awmr/core/linear_algebra.h"
 #include "awmr/identify/ceres_solve.h"
@@ -134,13 +135,14 @@ double time_constant_s(const Resistance<double>& law, double mass_norm, double s
   return mass_norm * speed_mps / law.at(speed_mps);
 }
 
-/// Longest integration step h before each sample of the curve, s, for the time constant T of the
-/// deceleration, which is smallest at low speeds (time_constant_s() for the measured speeds):
+/// Longest integration step h before each sample of the curve, s. T: time constant of the
+/// deceleration (time_constant_s()), the smaller of those at the measured speeds before and after
+/// the step:
 ///   - without a filter in the speed sensor, h = T/50. The error of the Runge-Kutta method over one
 ///     time constant is (h/T)^4/120 of the speed, 1e-9, and 1e-7 if the guess of m' is too large by
 ///     a factor of 3;
-///   - with a filter, h = T/100 for T at the highest speed of all curves, `fall_s`. filtered() takes
-///     the speed as linear within a step, an error of (h/T)^2/8 = 1e-5 of the speed.
+///   - with a filter, h = T/100 for T at the highest speed of all curves, `fall_s`. filtered()
+///     takes the speed as linear within a step, an error of (h/T)^2/8 = 1e-5 of the speed.
 /// Steps are never below 2 ms, because T is 0 at rest if b < 1. These steps do not depend on the
 /// parameters of the search, so that the cost is smooth.
 std::vector<double> longest_steps_s(const CoastCurve& curve, const Resistance<double>& law,
@@ -148,13 +150,17 @@ std::vector<double> longest_steps_s(const CoastCurve& curve, const Resistance<do
   constexpr double kShortest_s = 2e-3;
   constexpr double kStep = 0.02;
   constexpr double kFilterStep = 0.01;
+  const auto step_at = [&](double speed_mps) {
+    return speed_mps > 0.0 ? kStep * time_constant_s(law, mass_norm, speed_mps) : 0.0;
+  };
   std::vector<double> steps_s;
   steps_s.reserve(curve.speed_mps.size());
+  double before_s = std::numeric_limits<double>::infinity();
   for (const double speed_mps : curve.speed_mps) {
-    const double step_s = has_filter        ? kFilterStep * fall_s
-                          : speed_mps > 0.0 ? kStep * time_constant_s(law, mass_norm, speed_mps)
-                                            : 0.0;
+    const double now_s = step_at(speed_mps);
+    const double step_s = has_filter ? kFilterStep * fall_s : std::min(before_s, now_s);
     steps_s.push_back(std::max(kShortest_s, step_s));
+    before_s = now_s;
   }
   return steps_s;
 }

@@ -58,14 +58,14 @@ struct LogComparison {
 ///   - forces of extra_forces.h in the common fit, except Stribeck friction.
 ///
 /// A single log of 20 s or more is tested by its parts: a fit of its first half predicts its second
-/// half and its last fifth (held_out.h). If the measurements agree with both predictions (p > 0.05),
-/// there is no disagreement. If they contradict one, the halves are compared like two logs, with two
-/// exceptions: there is no search for missing terms, and a disagreement on one quantity makes the
-/// intervals of no further quantity invalid. The halves may agree although predict() and
+/// half and its last fifth (held_out.h). If the measurements agree with both predictions (p >
+/// 0.05), there is no disagreement. If they contradict one, the halves are compared like two logs,
+/// with two exceptions: there is no search for missing terms, and a disagreement on one quantity
+/// makes the intervals of no further quantity invalid. The halves may agree although predict() and
 /// likelihood_ratio_test() both find (p < 0.001) that the fit of the first half does not describe
 /// the last fifth. `missed` then contains the result, with the p value of likelihood_ratio_test().
-/// If that test is not possible, or the fit has a model error (LogFit::has_model_error()), predict()
-/// alone decides.
+/// If that test is not possible, or the fit has a model error (LogFit::has_model_error()),
+/// predict() alone decides.
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common);
 
 }  // namespace awmr

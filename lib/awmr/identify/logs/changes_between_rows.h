@@ -14,9 +14,9 @@ namespace awmr {
 /// happened at an unknown time before its row (changes_before_rows()), or exactly at its row. With
 /// unknown times, -2 ln L (integrated over the times) has to be lower by more than 20, plus 2 for
 /// each change. The likeliest times also have to pass are_times_between_rows(). All quantities of
-/// the fit and all terms of further_terms() except ramps are free in both cases, so that a delay or lag does not
-/// look like such changes. `point`: solution of `problem`. `candidate_terms`: further free
-/// parameters (LogFitOptions::candidate_terms).
+/// the fit and all terms of further_terms() except ramps are free in both cases, so that a delay or
+/// lag does not look like such changes. `point`: solution of `problem`. `candidate_terms`: further
+/// free parameters (LogFitOptions::candidate_terms).
 bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& point,
                               const std::vector<ParameterId>& candidate_terms);
 

@@ -34,8 +34,8 @@ std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
 }
 
 /// Reports the fitted delay of the commands. A positive delay is a dead time. A negative one means
-/// that the time stamps of the commands are late. `with_lag`: true if the fit also estimates a motor
-/// lag; the message then says that the dead time is in addition to it.
+/// that the time stamps of the commands are late. `with_lag`: true if the fit also estimates a
+/// motor lag; the message then says that the dead time is in addition to it.
 Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::string& file) {
   if (input.value < 0.0) {
     return {file, 0, Severity::kWarning, "late-commands",

@@ -42,7 +42,7 @@ struct CommandPath {
   std::optional<OffsetColumn> fall = {};
   bool turns_slowly = false;  ///< RampTimes::turns_slowly
   /// Forces after these ramps and the lag, instead of `lag`. Absent without `rise` and `fall`, and
-  /// if the forces jump because both times are 0.
+  /// if the forces jump because both times are 0 (with a delay, but without a lag).
   std::optional<RampedForces> ramps = {};
   /// Trim, rad: added to the steering command or logged angle.
   std::optional<OffsetColumn> steering_trim = {};

@@ -43,9 +43,9 @@ std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
 /// A filter is kept only if its AIC is lower than that of the best fit so far by more than this.
 constexpr double kLikelierFilter = 10.0;
 
-/// Tries a low-pass filter in place of the delay of each channel in `lags_s`, with the same delay as
-/// the initial guess. `lowest` (here and below) keeps the best fit so far. Each channel gets four
-/// trials: filters of first and of second order, both continuous or with a step per row.
+/// Tries a low-pass filter in place of the delay of each channel in `lags_s`, with the same delay
+/// as the initial guess. `lowest` (here and below) keeps the best fit so far. Each channel gets
+/// four trials: filters of first and of second order, both continuous or with a step per row.
 void consider_filters(const NoiseIteration& settled,
                       const std::vector<std::pair<LogChannel, double>>& lags_s, Loss loss,
                       LowestAic& lowest) {
@@ -134,12 +134,8 @@ bool is_turn_drag_of_any_rate(const NoiseIteration& fit) {
   return i && fit.point.coordinates[*i] < kFlattestTurnDrag;
 }
 
-/// Shortest accepted time of a ramp of the forces, s. The effect of a faster ramp is like that of
-/// commands that change between two rows, or of a motor's lag.
-constexpr double kShortestRamp_s = 0.05;
-
-/// True if a term that `fit` has in addition to those of `settled` does not mean what its name says:
-/// a drag in turns of any rate, or a very fast ramp of the forces.
+/// True if a term that `fit` has in addition to those of `settled` does not mean what its name
+/// says: a drag in turns of any rate, or a very fast ramp of the forces (kShortestRamp_s).
 bool has_wrong_term(const NoiseIteration& fit, const NoiseIteration& settled) {
   const std::vector<FreeQuantity>& quantities = fit.problem.model.quantities;
   for (std::size_t i = 0; i < quantities.size(); ++i) {
@@ -148,6 +144,14 @@ bool has_wrong_term(const NoiseIteration& fit, const NoiseIteration& settled) {
     if (is_new_ramp && fit.point.coordinates[i] < kShortestRamp_s) return true;
   }
   return is_turn_drag_of_any_rate(fit);
+}
+
+/// Tries the other form of a rise of the forces (FreeQuantity::turns_slowly), from the rise time
+/// `rise_s` of a fit with the usual form.
+void consider_slow_turns(const NoiseIteration& settled, double rise_s, Loss loss,
+                         LowestAic& lowest) {
+  NoiseIteration fit = tried(settled, {{force_rise(true), rise_s}}, loss);
+  if (!has_wrong_term(fit, settled)) lowest.consider(std::move(fit));
 }
 
 /// A candidate term is tried only if its significance is at least this fraction of that of the most
@@ -259,6 +263,9 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     }
     has_sensor |= lowest.consider(std::move(fit)) && is_sensor;
     consider_slip_of_both(settled, terms, candidate_term, loss, lowest);
+    if (more.kind == FreeQuantity::Kind::kForceRise) {
+      consider_slow_turns(settled, found_s, loss, lowest);
+    }
     if (more.kind == FreeQuantity::Kind::kDelay) {
       consider_motor_lag(settled, found_s, loss, lowest);
       delay_s = found_s;

@@ -57,8 +57,8 @@ std::vector<FreeTerm> ramp_terms(const FamilyFit& fit) {
 }
 
 /// Returns the models to try next. Each changes the family of an open axis, or adds one of
-/// late_terms() or ramp_terms(), or adds back-EMF if it is a candidate term. `is_done`: axis that was changed last
-/// and therefore stays (true: yaw, false: surge).
+/// late_terms() or ramp_terms(), or adds back-EMF if it is a candidate term. `is_done`: axis that
+/// was changed last and therefore stays (true: yaw, false: surge).
 std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
                                      std::optional<bool> is_done) {
   const Families families{fit.surge, fit.yaw};
@@ -129,7 +129,7 @@ FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power
     });
   };
   std::erase_if(options.terms, [&](const FreeTerm& term) {
-    return !term.quantity.is_ramp() || is_requested(term);
+    return !term.quantity.is_ramp() || term.begin < kShortestRamp_s || is_requested(term);
   });
   options.terms.insert(options.terms.end(), power_law.terms.begin(), power_law.terms.end());
   return fit_with(logs, std::move(options), rough.surge, rough.yaw);

@@ -24,7 +24,8 @@ bool assumes_scale(const LogFit& fit) {
          !has_kind(fit.quantities, FreeQuantity::Kind::kSensorScale, LogChannel::kYawRate);
 }
 
-/// The problem of the fit `chosen`, and its solution. Empty if its windows are not those of the fit.
+/// The problem of the fit `chosen`, and its solution. Empty if its windows are not those of the
+/// fit.
 std::optional<Extended> solution_of(const std::vector<DrivingLog>& logs, const FamilyFit& chosen) {
   const LogFit& fit = chosen.fit;
   LogProblem problem = log_problem(logs, from_optimum(chosen.options, chosen));

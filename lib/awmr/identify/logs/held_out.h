@@ -44,17 +44,17 @@ struct HeldOut {
 /// their simulation is not finite.
 std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOptions options);
 
-/// Likelihood-ratio test of the same hypothesis, without the linearisation of predict(). Far from the
-/// optimum of the tested rows, one Gauss-Newton step can be wrong by any amount: a fit of rows that
-/// hardly determine the friction of a turn may predict that the vehicle stands while it turns. L_1,
-/// L_2 are the likelihoods of the rows of `fit` and of the tested rows, with coordinates of their own
-/// or common ones, and the noise levels of `fit`:
+/// Likelihood-ratio test of the same hypothesis, without the linearisation of predict(). Far from
+/// the optimum of the tested rows, one Gauss-Newton step can be wrong by any amount: a fit of rows
+/// that hardly determine the friction of a turn may predict that the vehicle stands while it turns.
+/// L_1, L_2 are the likelihoods of the rows of `fit` and of the tested rows, with coordinates of
+/// their own or common ones, and the noise levels of `fit`:
 ///
 ///     X^2 = 2/f^2 (max ln L_1 + max ln L_2 - max ln (L_1 L_2)),   chi-squared
 ///
 /// with one degree of freedom for each compared coordinate. `fitted`: the rows of `fit`. `common`:
-/// coordinates of a fit of all rows, from which the searches start too. Returns the p value; empty if
-/// the tested rows cannot be fitted.
+/// coordinates of a fit of all rows, from which the searches start too. Returns the p value; empty
+/// if the tested rows cannot be fitted.
 std::optional<double> likelihood_ratio_test(const LogPart& fitted, const LogPart& rows,
                                             const LogFit& fit, const std::vector<double>& common,
                                             LogFitOptions options);

@@ -20,8 +20,8 @@ namespace awmr {
 /// of a command change.
 struct LinearMotion {
   State<double> state{};
-  /// Derivatives of the state, [kStateSize][columns], in the order of LogChannel; empty if there are
-  /// no columns.
+  /// Derivatives of the state, [kStateSize][columns], in the order of LogChannel; empty if there
+  /// are no columns.
   std::vector<double> by_column;
   /// Derivatives of the component `channel` of the state, one per column.
   const double* row(LogChannel channel, std::size_t columns) const {

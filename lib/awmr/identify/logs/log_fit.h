@@ -45,11 +45,10 @@ struct LogFit {
   /// the model is right. If the fit gave up, this is the value after the first round of
   /// settle_noise().
   double relative_error = 0.0;
-  /// True: the fit stopped early, because its errors were too large, or hardly smaller than those of
-  /// the best fit, after its quick searches (LogFitOptions::best_so_far), or because they were too
-  /// large after the first round (LogFitOptions::give_up_above). The fit
-  /// is then not usable. Of its results only `quantities`, `coordinates`, `relative_error` and
-  /// `report` are set.
+  /// True: the fit stopped early, because its errors were too large, or hardly smaller than those
+  /// of the best fit, after its quick searches (LogFitOptions::best_so_far), or because they were
+  /// too large after the first round (LogFitOptions::give_up_above). The fit is then not usable. Of
+  /// its results only `quantities`, `coordinates`, `relative_error` and `report` are set.
   bool gave_up = false;
   /// True: the fit stopped early, because the commands of the logs probably change between rows
   /// (LogFitOptions::tests_changes). The fit is then not usable. Of its results only `quantities`

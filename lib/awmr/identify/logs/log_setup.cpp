@@ -176,9 +176,9 @@ bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& l
 }
 
 /// Length of the windows of all fits, s: kWindow_s, unless positions are so precise that the errors
-/// of a model grow to many times the noise within a few seconds. The search then has very many wrong
-/// optima, which short windows avoid; and precise positions also determine the initial states of
-/// short windows. Windows are short if the errors of a quick fit are above kFar times the noise
+/// of a model grow to many times the noise within a few seconds. The search then has very many
+/// wrong optima, which short windows avoid; and precise positions also determine the initial states
+/// of short windows. Windows are short if the errors of a quick fit are above kFar times the noise
 /// (mean squares), and if short windows reduce them to a tenth.
 double window_length_s(const std::vector<DrivingLog>& logs, LogFitOptions fit) {
   constexpr double kFar = 1000.0;

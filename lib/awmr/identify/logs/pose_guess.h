@@ -13,8 +13,8 @@ namespace awmr {
 /// Exponent b of the guessed resistance laws.
 inline constexpr double kGuessedBeta = 0.8;
 
-/// Guess of the inertia and the coefficient alpha of inertia w_dot + alpha |w|^b sgn w = force, with
-/// b = kGuessedBeta. Surge: m', a1, w = u; yaw: I'z, a3, w = r.
+/// Guess of the inertia and the coefficient alpha of inertia w_dot + alpha |w|^b sgn w = force,
+/// with b = kGuessedBeta. Surge: m', a1, w = u; yaw: I'z, a3, w = r.
 struct GuessedLaw {
   double inertia;
   double alpha;

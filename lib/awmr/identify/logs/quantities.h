@@ -140,7 +140,8 @@ struct FreeQuantity {
     return is(ExtraForce::kBrakeForce) || is(ExtraForce::kReverseForce);
   }
   /// True for a quantity that only describes the shape of another term: sharpness of a saturation,
-  /// damping of a sensor's filter, speed scale of Stribeck friction, exponents of the drag in turns.
+  /// damping of a sensor's filter, speed scale of Stribeck friction, exponents of the drag in
+  /// turns.
   bool is_form() const {
     return kind == Kind::kSaturationSharpness || kind == Kind::kLagDamping || is_stribeck_speed() ||
            is_turn_drag_exponent();
@@ -188,6 +189,10 @@ FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
 /// drive. `is_mean`: true for a moving average, false for a Gaussian kernel (smoothing_kernel.h).
 FreeQuantity smoothing_of(LogChannel channel, bool is_mean = false);
 
+/// Shortest accepted time of a ramp of the forces, s. The effect of a faster ramp is like that of
+/// commands that change between two rows, or of a motor's lag.
+inline constexpr double kShortestRamp_s = 0.05;
+
 /// Time in which the magnitude of a motor's force rises by F_max. `turns_slowly`: true if the fall
 /// to 0 before a change of the sign is as slow (RampTimes).
 FreeQuantity force_rise(bool turns_slowly);
@@ -202,9 +207,10 @@ struct FreeTerm {
 };
 
 /// Time constant T and damping zeta of a low-pass filter of second order through which a channel
-/// was logged, for example zeta = 1 for two equal filters in series, 0.707 for a Butterworth filter.
-/// `delay_s`: delay 2 zeta T of slow signals at the initial guess. `is_at_rows`: true for a tracking
-/// filter with one step per row of the log, false for a continuous filter (filtered_channel.h).
+/// was logged, for example zeta = 1 for two equal filters in series, 0.707 for a Butterworth
+/// filter. `delay_s`: delay 2 zeta T of slow signals at the initial guess. `is_at_rows`: true for a
+/// tracking filter with one step per row of the log, false for a continuous filter
+/// (filtered_channel.h).
 std::vector<FreeTerm> second_order_lag_of(LogChannel channel, double delay_s,
                                           bool is_at_rows = false);
 

@@ -41,8 +41,8 @@ RampImpulses ramp_impulses(const SideForces<double>& before, const SideForces<do
 /// the area -D |D|/2; the same holds for T_f. If the time of the jump depends on T_r or T_f, with
 /// the derivative t_k', the impulse has the additional area -D t_k'.
 ///
-/// The computation starts with F' = c = m well before the first requested row, or at the log's first
-/// row.
+/// The computation starts with F' = c = m well before the first requested row, or at the log's
+/// first row.
 class RampedForces {
  public:
   /// Covers the rows [begin, end) of the log, and command delays from -1 to 1 s.

@@ -141,8 +141,8 @@ void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const 
   }
 }
 
-/// Sets the motor lag of the vehicle file, unless the fit estimates one, and the ramps of the forces
-/// (CommandPath::ramps).
+/// Sets the motor lag of the vehicle file, unless the fit estimates one, and the ramps of the
+/// forces (CommandPath::ramps).
 void set_motor_dynamics(const LogModel& model, const FitWindow& window, CommandPath& path) {
   const DrivingLog& log = *window.rows.log;
   const auto [begin, end] = std::pair(window.rows.begin, window.rows.end);

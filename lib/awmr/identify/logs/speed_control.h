@@ -25,9 +25,9 @@ struct SpeedControl {
 ///         tau_speed = a1 u,   tau_turn = a3 r = d^2 a1 r
 ///
 ///   - The measured steady speeds of the wheels are proportional to their commands. If the fit
-///     has no model error (LogFit::has_model_error()), only speeds in turns with different commands left and
-///     right count: for a vehicle without speed controller, inner and outer wheels then have
-///     different ratios, unless its only resistance is motor drag.
+///     has no model error (LogFit::has_model_error()), only speeds in turns with different commands
+///     left and right count: for a vehicle without speed controller, inner and outer wheels then
+///     have different ratios, unless its only resistance is motor drag.
 ///
 /// The second sign withdraws the intervals, unless all of this indicates motor drag: the model
 /// describes the logs, its errors are hardly larger than the sensor noise (LogFit::relative_error

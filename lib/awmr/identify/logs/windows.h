@@ -44,8 +44,9 @@ struct FitWindow {
 };
 
 /// Divides all logs (only the time interval `only_s`, if given) into windows of at most about
-/// `longest_s` seconds. Omits windows without samples. If a log of 5 s or more begins in motion, also omits its first second, because motors
-/// and filters then depend on unknown earlier commands. The logs must outlive the windows.
+/// `longest_s` seconds. Omits windows without samples. If a log of 5 s or more begins in motion,
+/// also omits its first second, because motors and filters then depend on unknown earlier commands.
+/// The logs must outlive the windows.
 std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs, double longest_s,
                                    const std::optional<Interval>& only_s = {});
 
