@@ -146,14 +146,6 @@ bool has_wrong_term(const NoiseIteration& fit, const NoiseIteration& settled) {
   return is_turn_drag_of_any_rate(fit);
 }
 
-/// Tries the other form of a rise of the forces (FreeQuantity::turns_slowly), from the rise time
-/// `rise_s` of a fit with the usual form.
-void consider_slow_turns(const NoiseIteration& settled, double rise_s, Loss loss,
-                         LowestAic& lowest) {
-  NoiseIteration fit = tried(settled, {{force_rise(true), rise_s}}, loss);
-  if (!has_wrong_term(fit, settled)) lowest.consider(std::move(fit));
-}
-
 /// A candidate term is tried only if its significance is at least this fraction of that of the most
 /// significant candidate. Weaker candidates wait, to save time: the search tests them again after
 /// it has added the best term.
@@ -263,9 +255,6 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     }
     has_sensor |= lowest.consider(std::move(fit)) && is_sensor;
     consider_slip_of_both(settled, terms, candidate_term, loss, lowest);
-    if (more.kind == FreeQuantity::Kind::kForceRise) {
-      consider_slow_turns(settled, found_s, loss, lowest);
-    }
     if (more.kind == FreeQuantity::Kind::kDelay) {
       consider_motor_lag(settled, found_s, loss, lowest);
       delay_s = found_s;

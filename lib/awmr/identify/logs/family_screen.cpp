@@ -129,7 +129,7 @@ FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power
     });
   };
   std::erase_if(options.terms, [&](const FreeTerm& term) {
-    return !term.quantity.is_ramp() || term.begin < kShortestRamp_s || is_requested(term);
+    return !term.quantity.is_ramp() || is_requested(term);
   });
   options.terms.insert(options.terms.end(), power_law.terms.begin(), power_law.terms.end());
   return fit_with(logs, std::move(options), rough.surge, rough.yaw);

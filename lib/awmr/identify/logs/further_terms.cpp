@@ -228,7 +228,8 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
     found.push_back(free_term(Kind::kForceImbalance));
   }
   const double full_command = largest_command(problem);
-  for (const FreeQuantity& ramp : {force_rise(false), free_term(Kind::kForceFall)}) {
+  for (const FreeQuantity& ramp :
+       {force_rise(false), force_rise(true), free_term(Kind::kForceFall)}) {
     if (full_command > 0.0 && !has(quantities, ramp.kind)) found.push_back(ramp);
   }
   // A fit contains either an exponent or a saturation of the forces. Both together could fit every
