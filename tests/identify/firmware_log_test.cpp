@@ -27,31 +27,6 @@ std::vector<State<double>> motion_of(const DrivingLog& log) {
   return states;
 }
 
-/// Reading of a channel in a row of the fast log.
-using Reading = std::function<double(LogChannel, std::size_t)>;
-
-/// Every `every`-th row of the fast log: its commands, and these readings of the channels.
-DrivingLog rows_of(const DrivingLog& fast, std::size_t every,
-                   const std::vector<LogChannel>& channels, const Reading& reading) {
-  DrivingLog log;
-  log.file = "firmware.csv";
-  log.steering_command_rad.emplace();
-  for (const LogChannel channel : channels) log[channel].emplace();
-  for (std::size_t i = 0; i < fast.rows(); i += every) {
-    log.t_s.push_back(fast.t_s[i]);
-    log.line.push_back(static_cast<int>(log.t_s.size()) + 1);
-    log.force_left.push_back(fast.force_left[i]);
-    log.force_right.push_back(fast.force_right[i]);
-    log.steering_command_rad->push_back((*fast.steering_command_rad)[i]);
-    for (const LogChannel channel : channels) {
-      log[channel]->value.push_back(reading(channel, i));
-      log[channel]->fresh.push_back(true);
-      ++log[channel]->fresh_count;
-    }
-  }
-  return log;
-}
-
 const std::vector<LogChannel> kSpeedAndYawRate = {LogChannel::kSpeed, LogChannel::kYawRate};
 
 /// Readings with white noise of this standard deviation (m/s, rad/s).
@@ -114,7 +89,7 @@ DrivingLog tracked_log(std::size_t every, double alpha, double beta, double nois
     }
     rates[channel] = tracked_rate(position, kFastStep_s * static_cast<double>(every), alpha, beta);
   }
-  return rows_of(fast, every, kSpeedAndYawRate,
+  return thinned(fast, every, kSpeedAndYawRate,
                  [&](LogChannel channel, std::size_t i) { return rates[channel][i / every]; });
 }
 
@@ -165,7 +140,7 @@ DrivingLog ramped_log(double rise, double fall) {
   DrivingLog motors = fast;
   motors.force_left = ramped_force(fast.force_left, rise, fall);
   motors.force_right = ramped_force(fast.force_right, rise, fall);
-  return rows_of(fast, 5, kSpeedAndYawRate, noisy(motion_of(motors), 0.007));
+  return thinned(fast, 5, kSpeedAndYawRate, noisy(motion_of(motors), 0.007));
 }
 
 TEST_P(RampedLogs, SoftStartIsEstimated) {
@@ -206,7 +181,7 @@ TEST(FirmwareLog, ChangesInCyclesBetweenRowsAreNotADeadTime) {
     for (std::size_t i = 0; i < all.size(); ++i) (*signal)[i] = all[i - i % kCycle];
   }
   const Identification result =
-      fit_of_firmware(rows_of(fast, kEvery, kSpeedAndYawRate, noisy(motion_of(fast), 0.004)));
+      fit_of_firmware(thinned(fast, kEvery, kSpeedAndYawRate, noisy(motion_of(fast), 0.004)));
   EXPECT_FALSE(has_finding(result, "actuator-lag"));
   EXPECT_FALSE(has_finding(result, "late-commands"));
   expect_vehicle_of_log(result);
@@ -217,7 +192,7 @@ DrivingLog log_of_gyroscope(double scale, double heading_std_rad) {
   const DrivingLog fast = fast_drive(25.0);
   const std::vector<State<double>> states = motion_of(fast);
   Random random(4, 2);
-  return rows_of(fast, 5, {LogChannel::kHeading, LogChannel::kSpeed, LogChannel::kYawRate},
+  return thinned(fast, 5, {LogChannel::kHeading, LogChannel::kSpeed, LogChannel::kYawRate},
                  [&](LogChannel channel, std::size_t i) {
                    const double exact = channel_of(states[i], channel);
                    if (channel == LogChannel::kHeading)

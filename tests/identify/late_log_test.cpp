@@ -614,27 +614,11 @@ DrivingLog measured_rows(const DrivingLog& fast, const Plant<double>& vehicle, s
   std::vector<State<double>> states;
   replay<double>(LogSignals(fast), 0, fast.rows(), vehicle, nullptr, 0.002, {},
                  [&](std::size_t, const State<double>& s) { states.push_back(s); });
-  DrivingLog log;
-  log.file = "smooth.csv";
-  log.steering_command_rad.emplace();
   Random random(4, 2);
-  constexpr LogChannel kMeasured[] = {LogChannel::kHeading, LogChannel::kSpeed,
-                                      LogChannel::kYawRate};
-  for (const LogChannel channel : kMeasured) log[channel].emplace();
-  for (std::size_t i = 0; i < fast.rows(); i += every) {
-    log.t_s.push_back(fast.t_s[i]);
-    log.line.push_back(static_cast<int>(log.t_s.size()) + 1);
-    log.force_left.push_back(fast.force_left[i]);
-    log.force_right.push_back(fast.force_right[i]);
-    log.steering_command_rad->push_back((*fast.steering_command_rad)[i]);
-    for (const LogChannel channel : kMeasured) {
-      Measured& measured = *log[channel];
-      measured.value.push_back(channel_of(states[i], channel) + noise_std * random.normal());
-      measured.fresh.push_back(true);
-      ++measured.fresh_count;
-    }
-  }
-  return log;
+  return thinned(fast, every, {LogChannel::kHeading, LogChannel::kSpeed, LogChannel::kYawRate},
+                 [&](LogChannel channel, std::size_t i) {
+                   return channel_of(states[i], channel) + noise_std * random.normal();
+                 });
 }
 
 TEST_P(LateLogs, InterpolatesCommandsThatChangeFasterThanTheRows) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -124,6 +125,31 @@ inline bool has_finding(const Identification& result, const std::string& code,
   return std::ranges::any_of(result.model.record.findings, [&](const Finding& f) {
     return f.code == code && f.message.find(words) != std::string::npos;
   });
+}
+
+/// Reading of a channel in a row of the fast log.
+using Reading = std::function<double(LogChannel, std::size_t)>;
+
+/// Every `every`-th row of the fast log: its commands, and these readings of the channels.
+inline DrivingLog thinned(const DrivingLog& fast, std::size_t every,
+                          const std::vector<LogChannel>& channels, const Reading& reading) {
+  DrivingLog log;
+  log.file = "thinned.csv";
+  log.steering_command_rad.emplace();
+  for (const LogChannel channel : channels) log[channel].emplace();
+  for (std::size_t i = 0; i < fast.rows(); i += every) {
+    log.t_s.push_back(fast.t_s[i]);
+    log.line.push_back(static_cast<int>(log.t_s.size()) + 1);
+    log.force_left.push_back(fast.force_left[i]);
+    log.force_right.push_back(fast.force_right[i]);
+    log.steering_command_rad->push_back((*fast.steering_command_rad)[i]);
+    for (const LogChannel channel : channels) {
+      log[channel]->value.push_back(reading(channel, i));
+      log[channel]->fresh.push_back(true);
+      ++log[channel]->fresh_count;
+    }
+  }
+  return log;
 }
 
 }  // namespace awmr::testing

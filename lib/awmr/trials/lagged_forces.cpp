@@ -6,12 +6,6 @@
 namespace awmr {
 namespace {
 
-/// Largest magnitude of the delay of the commands, positive or negative.
-constexpr double kLongestDelay_s = 1.0;
-// After this many time constants, the rest of a command's effect is exp(-40) = 4e-18, below
-// rounding.
-constexpr double kForgotten = 40.0;
-
 /// Decay of the difference between motor force and command in a time h. T is the time constant of
 /// the motor.
 struct Decay {
@@ -26,14 +20,21 @@ Decay decay(double h_s, double lag_s) {
 
 }  // namespace
 
+RowRange rows_with_effect(const DrivingLog& log, RowRange rows, double memory_s) {
+  constexpr double kLongestDelay_s = 1.0;  // positive or negative
+  const double from_s = log.t_s[rows.begin] - memory_s - kLongestDelay_s;
+  const double until_s = log.t_s[rows.end - 1] + kLongestDelay_s;
+  while (rows.begin > 0 && log.t_s[rows.begin] > from_s) --rows.begin;
+  while (rows.end < log.rows() && log.t_s[rows.end] < until_s) ++rows.end;
+  return rows;
+}
+
 LaggedForces::LaggedForces(const DrivingLog& log, std::size_t begin, std::size_t end, double lag_s)
-    : log_(&log), lag_s_(lag_s), first_row_(begin) {
-  const double from_s = log.t_s[begin] - kForgotten * lag_s - kLongestDelay_s;
-  while (first_row_ > 0 && log.t_s[first_row_] > from_s) --first_row_;
-  const double until_s = log.t_s[end - 1] + kLongestDelay_s;
-  while (end < log.rows() && log.t_s[end] < until_s) ++end;
-  left_ = side(log.force_left, end);
-  right_ = side(log.force_right, end);
+    : log_(&log), lag_s_(lag_s) {
+  const RowRange rows = rows_with_effect(log, {begin, end}, kForgottenLags * lag_s);
+  first_row_ = rows.begin;
+  left_ = side(log.force_left, rows.end);
+  right_ = side(log.force_right, rows.end);
 }
 
 LaggedForces::Side LaggedForces::side(const std::vector<double>& command, std::size_t end) const {

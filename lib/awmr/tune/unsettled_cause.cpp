@@ -27,11 +27,11 @@ std::optional<NoiseEffect> noise_effect(const ObjectiveSetting& setting,
   const double without = settled_share_without_noise(setting, gains);
   if (without >= kSettledShare) return NoiseEffect{without, 1.0};
   const ObjectiveSetting longer = with_times_scaled(setting, kMostTime);
-  const double without_with_times_scaled = settled_share_without_noise(longer, gains);
-  if (without_with_times_scaled < kSettledShare || enough_settle(longer, gains, kSettledShare)) {
+  const double without_in_longer = settled_share_without_noise(longer, gains);
+  if (without_in_longer < kSettledShare || enough_settle(longer, gains, kSettledShare)) {
     return std::nullopt;
   }
-  return NoiseEffect{without_with_times_scaled, kMostTime};
+  return NoiseEffect{without_in_longer, kMostTime};
 }
 
 namespace {

@@ -273,12 +273,10 @@ void CoastProblem::minimise() {
   ceres::Solver::Options options = exact_options();
   options.parameter_tolerance = 1e-10;
   options.function_tolerance = 1e-12;
-  options.max_num_line_search_step_size_iterations = 0;  // twice as fast as with line searches
-  ceres::Solve(options, &problem_, &summary_);
-  if (summary_.IsSolutionUsable()) return;
-  options.max_num_line_search_step_size_iterations =
-      exact_options().max_num_line_search_step_size_iterations;
-  ceres::Solve(options, &problem_, &summary_);
+  ceres::Solver::Options quick = options;
+  quick.max_num_line_search_step_size_iterations = 0;  // twice as fast as with line searches
+  ceres::Solve(quick, &problem_, &summary_);
+  if (!summary_.IsSolutionUsable()) ceres::Solve(options, &problem_, &summary_);
 }
 
 void CoastProblem::search() {

@@ -205,6 +205,13 @@ std::vector<FreeQuantity> all_terms() {
   return terms;
 }
 
+void add_ramps(const std::vector<FreeQuantity>& quantities, std::vector<FreeQuantity>& found) {
+  for (const FreeQuantity& ramp :
+       {force_rise(false), force_rise(true), free_term(FreeQuantity::Kind::kForceFall)}) {
+    if (!has(quantities, ramp.kind)) found.push_back(ramp);
+  }
+}
+
 }  // namespace
 
 bool is_often_filtered(LogChannel channel) {
@@ -228,10 +235,7 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
     found.push_back(free_term(Kind::kForceImbalance));
   }
   const double full_command = largest_command(problem);
-  for (const FreeQuantity& ramp :
-       {force_rise(false), force_rise(true), free_term(Kind::kForceFall)}) {
-    if (full_command > 0.0 && !has(quantities, ramp.kind)) found.push_back(ramp);
-  }
+  if (full_command > 0.0) add_ramps(quantities, found);
   // A fit contains either an exponent or a saturation of the forces. Both together could fit every
   // curve, even one with wrong forces at small commands.
   if (full_command > 0.0 && !has(quantities, Kind::kForceExponent) &&

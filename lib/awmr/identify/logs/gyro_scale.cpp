@@ -38,7 +38,7 @@ std::optional<Extended> solution_of(const std::vector<DrivingLog>& logs, const F
   return Extended{std::move(problem), {fit.coordinates, fit.initial_states}};
 }
 
-/// What the logs show about the scale error s of the yaw rate.
+/// Scale error s of the yaw rate that remains possible with the logs, and its effect on the fit.
 struct OpenScale {
   double std = 0.0;          ///< root of the mean square of s
   Eigen::VectorXd by_scale;  ///< change of the coordinates of the fit per s

@@ -7,6 +7,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/windows.h"
+#include "awmr/model/dynamics.h"
 
 namespace awmr {
 namespace {
@@ -60,25 +61,14 @@ std::vector<double> speed_of(const DrivingLog& log) {
   return speed;
 }
 
-/// tau_speed and tau_turn of the commands in one row. F'L, F'R: wheel forces; d_r: commanded
-/// steering angle; rho: 1 if rear wheels are driven, else 0; l_f: centre of gravity to front axle;
-/// d: half of the track width:
-///
-///     tau_speed = (F'L + F'R)(rho + cos d_r)
-///     tau_turn = l_f (F'L + F'R) sin d_r + d (F'R - F'L)(rho + cos d_r)
-struct CommandedForces {
-  double speed;
-  double turn;
-};
-
-CommandedForces forces_in(const DrivingLog& log, std::size_t row, const Vehicle& vehicle) {
-  const double rho = vehicle.driven_wheels() > 2 ? 1.0 : 0.0;
-  const double steering = log.driving_steering_rad()[row];
-  const double sum = log.force_left[row] + log.force_right[row];
-  const double difference = log.force_right[row] - log.force_left[row];
-  const double reach = rho + std::cos(steering);
-  return {sum * reach, vehicle.front_axle_m * sum * std::sin(steering) +
-                           vehicle.half_track_m * difference * reach};
+/// Generalised forces of the commands in one row, without dead zone, back-EMF and servo lag.
+GeneralisedForces<double> forces_in(const DrivingLog& log, std::size_t row,
+                                    const Vehicle& vehicle) {
+  const SideForces<double> force{log.force_left[row], log.force_right[row]};
+  const double steering_rad = log.driving_steering_rad()[row];
+  return vehicle.drive == Drive::kFrontWheel
+             ? front_wheel_forces(vehicle.front_axle_m, vehicle.half_track_m, force, steering_rad)
+             : generalised_forces(vehicle.front_axle_m, vehicle.half_track_m, force, steering_rad);
 }
 
 /// Least-squares solution of inertia w_dot + alpha |w|^b sgn w = force without derivatives of a
@@ -149,7 +139,7 @@ std::optional<GuessedLaw> law_of(const std::vector<DrivingLog>& logs, LogChannel
 std::optional<GuessedLaw> surge_of_positions(const std::vector<DrivingLog>& logs,
                                              const Vehicle& vehicle) {
   return law_of(logs, LogChannel::kSpeed, speed_of, [&](const DrivingLog& log, std::size_t row) {
-    return forces_in(log, row, vehicle).speed;
+    return forces_in(log, row, vehicle).tau_speed;
   });
 }
 
@@ -158,9 +148,11 @@ std::optional<GuessedLaw> yaw_of_headings(const std::vector<DrivingLog>& logs,
   const auto yaw_rate_of = [](const DrivingLog& log) {
     return slope_of(log.t_s, filled(log, LogChannel::kHeading));
   };
-  return law_of(
-      logs, LogChannel::kYawRate, yaw_rate_of,
-      [&](const DrivingLog& log, std::size_t row) { return forces_in(log, row, vehicle).turn; });
+  return law_of(logs, LogChannel::kYawRate, yaw_rate_of,
+                [&](const DrivingLog& log, std::size_t row) {
+                  const GeneralisedForces<double> forces = forces_in(log, row, vehicle);
+                  return forces.tau_steering_m + forces.tau_diff_m;
+                });
 }
 
 }  // namespace awmr

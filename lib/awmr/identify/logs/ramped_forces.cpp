@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "awmr/trials/lagged_forces.h"
 
 namespace awmr {
 namespace {
@@ -118,25 +121,6 @@ class RampBuilder {
   WithDerivatives impulse_ = WithDerivatives::Zero();  ///< impulses in the derivatives of c there
 };
 
-/// First row from which the computation starts, see RampedForces.
-std::size_t first_row(const DrivingLog& log, std::size_t begin, const RampTimes& times) {
-  constexpr double kForgotten = 40.0;  // time constants of the motor
-  constexpr double kRamps = 2.0;       // from -F_max to F_max
-  constexpr double kLongestDelay_s = 1.0;
-  const double from_s = log.t_s[begin] - kForgotten * times.lag_s -
-                        kRamps * (times.rise_s + times.fall_s) - kLongestDelay_s;
-  while (begin > 0 && log.t_s[begin] > from_s) --begin;
-  return begin;
-}
-
-/// Row after the last one whose commands matter.
-std::size_t last_row(const DrivingLog& log, std::size_t end) {
-  constexpr double kLongestDelay_s = 1.0;
-  const double until_s = log.t_s[end - 1] + kLongestDelay_s;
-  while (end < log.rows() && log.t_s[end] < until_s) ++end;
-  return end;
-}
-
 std::vector<Knot> ramped(const DrivingLog& log, const std::vector<double>& command,
                          std::size_t begin, std::size_t end, const RampTimes& times) {
   RampBuilder builder(times, log.t_s[begin], command[begin]);
@@ -180,10 +164,11 @@ RampImpulses ramp_impulses(const SideForces<double>& before, const SideForces<do
 RampedForces::RampedForces(const DrivingLog& log, std::size_t begin, std::size_t end,
                            const RampTimes& times)
     : times_(times) {
-  begin = first_row(log, begin, times);
-  end = last_row(log, end);
-  left_ = ramped(log, log.force_left, begin, end, times);
-  right_ = ramped(log, log.force_right, begin, end, times);
+  constexpr double kRamps = 2.0;  // from -F_max to F_max
+  const double memory_s = kForgottenLags * times.lag_s + kRamps * (times.rise_s + times.fall_s);
+  const RowRange rows = rows_with_effect(log, {begin, end}, memory_s);
+  left_ = ramped(log, log.force_left, rows.begin, rows.end, times);
+  right_ = ramped(log, log.force_right, rows.begin, rows.end, times);
 }
 
 void RampedForces::add_mean(const std::vector<Knot>& knots, double from_s, double h_s,
