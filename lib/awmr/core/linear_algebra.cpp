@@ -45,18 +45,13 @@ MatrixXd PivotedQr::solve(const MatrixXd& b) const { return qr_.solve(b); }
 VectorXd PivotedQr::solve(const VectorXd& b) const { return qr_.solve(b); }
 
 VectorXd PivotedQr::leverages() const {
-  const Eigen::Index n = qr_.rows();
-  const Eigen::Index p = qr_.cols();
-  if (n <= kMaxSquareQ) return MatrixXd(qr_.householderQ()).leftCols(p).rowwise().squaredNorm();
-  const MatrixXd thin = qr_.householderQ() * MatrixXd::Identity(n, p);
+  const MatrixXd thin = qr_.householderQ() * MatrixXd::Identity(qr_.rows(), qr_.cols());
   return thin.rowwise().squaredNorm();
 }
 
 MatrixXd PivotedQr::r() const {
   return qr_.matrixR().topRows(qr_.cols()).triangularView<Eigen::Upper>();
 }
-
-MatrixXd PivotedQr::permutation() const { return qr_.colsPermutation(); }
 
 MatrixXd PivotedQr::inverse_information() const {
   const Eigen::Index p = qr_.cols();
@@ -70,11 +65,6 @@ MatrixXd PivotedQr::inverse_information() const {
     for (Eigen::Index j = 0; j < p; ++j) information(pivot(i), pivot(j)) = pivoted(i, j);
   }
   return information;
-}
-
-MatrixXd PivotedQr::inverse_information_by_pseudo_inverse() const {
-  const MatrixXd inverse = qr_.solve(MatrixXd::Identity(qr_.rows(), qr_.rows()));
-  return inverse * inverse.transpose();
 }
 
 }  // namespace awmr

@@ -45,19 +45,11 @@ class PivotedQr {
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   /// Leverages of the n rows of J: the diagonal of Q Q^T, where Q has only its first p columns.
   Eigen::VectorXd leverages() const;
-  Eigen::MatrixXd r() const;            ///< R: p x p, upper triangle
-  Eigen::MatrixXd permutation() const;  ///< Pi: p x p
+  Eigen::MatrixXd r() const;  ///< R: p x p, upper triangle
   /// The inverse of J^T J, computed as Pi R^-1 R^-T Pi^T. Precondition: rank() == p.
   Eigen::MatrixXd inverse_information() const;
-  /// The same matrix as inverse_information(), computed from the pseudo-inverse J^+ as J^+ J^+T. It
-  /// needs an n x n matrix, so use it only for few rows n.
-  Eigen::MatrixXd inverse_information_by_pseudo_inverse() const;
 
  private:
-  /// Largest number of rows n for which all of Q is computed. For more rows, only the first p
-  /// columns of Q are computed, because a square Q has n^2 values.
-  static constexpr Eigen::Index kMaxSquareQ = 200;
-
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
 };
 

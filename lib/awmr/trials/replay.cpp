@@ -210,8 +210,8 @@ Result<void> check_replay(const Plant<double>& plant, const std::string& file) {
   return input_error(
       ErrorCode::kOutOfRange, file,
       fmt::format("{}, too fast to be followed by the integration steps with which awmr "
-                  "simulates a log (limit: {:g} s): check the values in vehicle.json and the "
-                  "units of the trials",
+                  "simulates a log (the shortest time that they can follow is {:g} s): check the "
+                  "values in vehicle.json and the units of the trials",
                   what, 4.0 * kShortestReplayStep_s));
 }
 

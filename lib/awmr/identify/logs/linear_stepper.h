@@ -103,8 +103,8 @@ class LinearStepper {
   /// (slopes_) and to the columns (driven_) at each stage. move_to() needs them.
   State<double> state_after(const DelayedCommand& command, double h_s, const State<double>& from);
   /// Sets the state of `motion` to `next`, the result of the last state_after(). Advances the
-  /// derivatives of the state with respect to the columns of the fit by the same step of h_s
-  /// seconds.
+  /// derivatives of the state with respect to the unknowns of the fit (a column of the Jacobian
+  /// each) by the same step of h_s seconds.
   void move_to(const State<double>& next, double h_s, LinearMotion& motion);
   /// Handles a speed w (u or r) that has reached 0: friction holds it at 0, or it changes its sign.
   /// Multiplies the derivatives of w with respect to the columns by the ratio of two accelerations:

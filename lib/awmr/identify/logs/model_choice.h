@@ -27,7 +27,8 @@ std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs);
 /// conditions must hold:
 ///   - Every log has steering commands, but no measured angles.
 ///   - In the fit `first`, the time constant of the servo is at most half of the row spacing. (If
-///     the fit has found late time stamps of the steering, the lateness is first subtracted.)
+///     the fit has found that the time stamps of the steering are late, this condition is for the
+///     time constant minus the lateness.)
 ///   - The AIC of a fit that uses the column as the measured angle is lower than that of `first` by
 ///     more than kFamilyAicThreshold. (If `first` has late time stamps of the steering, any lower
 ///     AIC suffices.)

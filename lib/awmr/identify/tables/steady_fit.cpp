@@ -51,8 +51,7 @@ bool add_uncertainty(const SteadyProblem& problem, SteadySearch& search, SteadyF
       robust ? m_estimate_variance(search.loss(), fit.residuals, static_cast<int>(p))
              : fit.residuals.squaredNorm() / fit.degrees_of_freedom;
   fit.residual_std = std::sqrt(variance);
-  fit.covariance = variance * (n <= kExactRows ? qr.inverse_information_by_pseudo_inverse()
-                                               : qr.inverse_information());
+  fit.covariance = variance * qr.inverse_information();
   return std::isfinite(variance) && fit.covariance.allFinite() && fit.leverages.allFinite();
 }
 
@@ -87,17 +86,6 @@ TransformedParameters initial_guess_of(const SteadyProblem& problem) {
   if (terms.dead_zone) guess[at(TransformedParameter::kDeadZone)] = 0.5 * minimum_force;
   if (terms.quadratic) guess[at(TransformedParameter::kQuadratic)] = 0.0;
   return guess;
-}
-
-/// Covariance of the coefficients of the fitted line ln f = ln alpha + beta ln w, s^2 (P^T P)^-1 =
-/// s^2 Pi R^-1 R^-T Pi^T. P is the matrix of the rows (1, ln w), Pi the column permutation of its
-/// factors P Pi = Q R, s^2 the variance of the residuals.
-Eigen::Matrix2d covariance_of(const PivotedQr& qr, double variance) {
-  const Eigen::Matrix2d r = qr.r();
-  const Eigen::Matrix2d r_inverse =
-      r.triangularView<Eigen::Upper>().solve(Eigen::Matrix2d::Identity());
-  const Eigen::Matrix2d p = qr.permutation();
-  return variance * (p * r_inverse * r_inverse.transpose() * p.transpose());
 }
 
 }  // namespace
@@ -182,7 +170,7 @@ SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points) {
   if (fit.degrees_of_freedom > 0) {
     const double variance = fit.residuals.squaredNorm() / fit.degrees_of_freedom;
     fit.residual_std = std::sqrt(variance);
-    fit.covariance = covariance_of(qr, variance);
+    fit.covariance = variance * qr.inverse_information();
   }
   return fit;
 }
