@@ -132,7 +132,8 @@ INSTANTIATE_TEST_SUITE_P(
                       force_case(ExtraForce::kBrakeForce, 0.4, "brake-force"),
                       force_case(ExtraForce::kReverseForce, -0.3, "reverse-force"),
                       force_case(ExtraForce::kBackwardDrag, 0.5, "backward-drag"),
-                      force_case(ExtraForce::kSidePull, 0.004, "side-pull")),
+                      force_case(ExtraForce::kSidePull, 0.004, "side-pull"),
+                      force_case(ExtraForce::kAxleOffset, 0.03, "axle-offset")),
     [](const auto& one) {
       std::string name = one.param.code;
       std::erase(name, '-');

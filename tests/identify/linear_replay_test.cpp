@@ -525,9 +525,10 @@ TEST(LinearReplay, OfExtraForcesHasTheDerivativesOfCentralDifferences) {
   // Derivatives and differences agree less exactly in steps in which friction stops the vehicle.
   // Forces that jump at a stop therefore need a larger tolerance.
   constexpr std::size_t kJumping = at(ExtraForce::kTurnDrag);
-  const ForceCoordinates none{0.0, -2.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const ForceCoordinates none{0.0, -2.0, 0.0, -1.0, 0.0, 0.0, 0.0,
+                              1.0, 0.0,  0.0, 0.0,  0.0, 0.0, 0.0};
   const ForceCoordinates all{0.04, -2.0, 0.01, -1.0, 0.06, -0.1, 0.1,
-                             0.8,  0.6,  0.3,  -0.2, 0.25, 0.0};
+                             0.8,  0.6,  0.3,  -0.2, 0.25, 0.0,  0.0};
   ForceCoordinates steady = all;
   std::copy(none.begin() + kJumping, none.end(), steady.begin() + kJumping);
   expect_derivatives_by_forces(none, Friction::kCoulomb, 0, kJumping, 3e-3);
@@ -538,10 +539,11 @@ TEST(LinearReplay, OfExtraForcesHasTheDerivativesOfCentralDifferences) {
   without_friction[at(ExtraForce::kYawStribeck)] = 0.0;
   expect_derivatives_by_forces(without_friction, Friction::kNone, at(ExtraForce::kSlopeX),
                                kExtraForceCount, 1e-4);
-  // Only the column of the side pull: near rest it couples the yaw rate to the speed, so that the
-  // tiny derivatives of the yaw rate by surge forces have the errors of the steps with a stop.
+  // Only the columns of side pull and axle offset: both couple the yaw rate to the speed, so that
+  // the tiny derivatives of the yaw rate by surge forces have the errors of the steps with a stop.
   for (ForceCoordinates pulled : {none, without_friction}) {
     pulled[at(ExtraForce::kSidePull)] = 0.02;
+    pulled[at(ExtraForce::kAxleOffset)] = 0.05;
     expect_derivatives_by_forces(pulled, Friction::kNone, at(ExtraForce::kSidePull),
                                  kExtraForceCount, 1e-4);
   }

@@ -26,7 +26,7 @@ inline constexpr std::string_view kSaturationSharpnessName = "motor.saturation_s
 /// its exponents. Relative increases of three quantities: motor forces that brake, backward motor
 /// forces, and surge resistance in backward motion. The last name is a yaw moment that pulls the
 /// driving vehicle to one side.
-inline constexpr std::array<std::string_view, 13> kExtraForceNames = {
+inline constexpr std::array<std::string_view, 14> kExtraForceNames = {
     "surge.stribeck",
     "surge.stribeck_speed_mps",
     "yaw.stribeck",
@@ -39,7 +39,8 @@ inline constexpr std::array<std::string_view, 13> kExtraForceNames = {
     "motor.brake_excess",
     "motor.reverse_excess",
     "surge.backward_excess",
-    "yaw.pull_m"};
+    "yaw.pull_m",
+    "axle.offset_m"};
 inline constexpr std::string_view kSensorDelayPrefix =
     "delay.";  ///< followed by the channel's column name
 inline constexpr std::string_view kSensorLagPrefix =

@@ -13,21 +13,12 @@
 #include "awmr/trials/log_start.h"
 
 namespace awmr {
-namespace {
+namespace {}  // namespace
 
-/// A candidate term with the value that its score test estimates.
-struct CandidateTerm {
-  FreeQuantity quantity;
-  double value;
-  double significance;  ///< |value| over its standard error by the noise model
-};
-
-/// The terms to which a score test gives a value of more than three standard errors, most
-/// significant first. `settled` (here and below): the converged fit without these terms.
-std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
+std::vector<CandidateTerm> candidate_terms(const LogProblem& problem, const SearchPoint& point) {
   constexpr double kWorthATry = 3.0;
-  const std::vector<FreeQuantity> channels = further_terms(settled.problem);
-  const std::vector<ScoreTest> tests = score_test(settled.problem, settled.point, channels);
+  const std::vector<FreeQuantity> channels = further_terms(problem);
+  const std::vector<ScoreTest> tests = score_test(problem, point, channels);
   std::vector<CandidateTerm> found;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const double value = tests[i].value;
@@ -40,11 +31,14 @@ std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   return found;
 }
 
+namespace {
+
 /// A filter is kept only if its AIC is lower than that of the best fit so far by more than this.
 constexpr double kLikelierFilter = 10.0;
 
 /// Tries a low-pass filter in place of the delay of each channel in `lags_s`, with the same delay
-/// as the initial guess. `lowest` (here and below) keeps the best fit so far. Each channel gets
+/// as the initial guess. Here and below: `settled` is the converged fit without the new terms, and
+/// `lowest` keeps the best fit so far. Each channel gets
 /// four trials: filters of first and of second order, both continuous or with a step per row.
 void consider_filters(const NoiseIteration& settled,
                       const std::vector<std::pair<LogChannel, double>>& lags_s, Loss loss,
@@ -236,7 +230,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   bool has_sensor = false;
   std::vector<std::pair<LogChannel, double>> filters;
   double delay_s = 0.0;
-  const std::vector<CandidateTerm> terms = candidate_terms(settled);
+  const std::vector<CandidateTerm> terms = candidate_terms(settled.problem, settled.point);
   for (const CandidateTerm& candidate_term : terms) {
     if (lowest.best() && candidate_term.significance < kComparable * terms.front().significance)
       break;

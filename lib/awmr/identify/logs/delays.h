@@ -3,10 +3,22 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "awmr/identify/logs/noise_iteration.h"
 
 namespace awmr {
+
+/// A term that a fit lacks, with the value that its score test estimates.
+struct CandidateTerm {
+  FreeQuantity quantity;
+  double value;
+  double significance;  ///< |value| over its standard error by the noise model
+};
+
+/// The terms of further_terms() to which a score test gives a value of more than three standard
+/// errors, most significant first. `point`: the optimum without these terms.
+std::vector<CandidateTerm> candidate_terms(const LogProblem& problem, const SearchPoint& point);
 
 /// Adds terms of further_terms() one at a time to the converged fit `settled`, until none improves
 /// the fit. Without them, other estimates would be biased: a latency of the speed, for example,

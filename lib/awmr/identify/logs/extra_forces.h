@@ -1,6 +1,6 @@
 /// Forces that a log fit can find, but that the model does not contain: Stribeck friction, the
-/// slope of the ground, additional resistance in turns or backward, and motors whose force differs
-/// when they brake or drive backward. Private to identify/.
+/// slope of the ground, additional resistance in turns or backward, a centre of gravity ahead of the
+/// axle, and motors whose force differs when they brake or drive backward. Private to identify/.
 ///
 /// Stribeck friction is the part of the friction at low speed that exceeds the Coulomb friction c.
 /// Its size is s and its speed scale w_s. The resistance g(w) at the speed or yaw rate w becomes
@@ -23,6 +23,11 @@
 /// moment M (over F_max, m; positive to the left when driving forward):
 ///
 ///     r_dot += M/I'z sgn u,   near rest M/I'z u/w_0 with a small speed w_0
+///
+/// If the centre of gravity lies x_c ahead of the driven axle, whose wheels do not slide sideways,
+/// the masses m' and I'z (about the middle of the axle) move by
+///
+///     u_dot += x_c r^2,   r_dot -= x_c u r m'/I'z
 ///
 /// A wheel force against the motion is 1 + e_b times its command, and a negative (backward) wheel
 /// force 1 + e_r times. e_b is called the excess of braking forces, e_r that of backward forces. If
@@ -52,9 +57,10 @@ enum class ExtraForce {
   kBrakeForce,             ///< e_b
   kReverseForce,           ///< e_r
   kBackwardDrag,           ///< e_g
-  kSidePull                ///< M, m
+  kSidePull,               ///< M, m
+  kAxleOffset              ///< x_c, m
 };
-inline constexpr std::size_t kExtraForceCount = 13;
+inline constexpr std::size_t kExtraForceCount = 14;
 
 /// A number that the fit estimates, and its column: its index among the unknowns of the fit
 /// (linear_stepper.h).
@@ -67,7 +73,7 @@ struct ExtraColumn {
 /// Values of all numbers at one point of a search, and the columns of those that the fit estimates.
 struct ExtraForces {
   std::array<double, kExtraForceCount> values{0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0,
-                                              1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+                                              1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   std::vector<ExtraColumn> columns{};
   bool has_motor_per_side = false;  ///< true: left and right commands differ in the logs
 

@@ -254,6 +254,20 @@ void add_side_pull(const LinearPlant& plant, double u_mps, LinearRates& out) {
   out.by_extra[at(ExtraForce::kSidePull)].r = way * plant.per_inertia;
 }
 
+void add_axle_offset(const LinearPlant& plant, const State<double>& s, LinearRates& out) {
+  const double offset_m = plant.extra[ExtraForce::kAxleOffset];
+  const double ratio = plant.plant.mass_norm * plant.per_inertia;  // m'/I'z
+  const double of_yaw = -ratio * s.u_mps * s.r_radps;              // d r_dot / d x_c
+  out.rates.u_mps += offset_m * s.r_radps * s.r_radps;
+  out.rates.r_radps += offset_m * of_yaw;
+  out.by_state.u_r += 2.0 * offset_m * s.r_radps;
+  out.by_state.r_u -= offset_m * ratio * s.r_radps;
+  out.by_state.r_r -= offset_m * ratio * s.u_mps;
+  out.by_extra[at(ExtraForce::kAxleOffset)] = {.u = s.r_radps * s.r_radps, .r = of_yaw};
+  out.by_parameter[at(ParameterId::kMassNorm)].r = offset_m * of_yaw * plant.per_mass;
+  out.by_parameter[at(ParameterId::kInertiaNorm)].r -= offset_m * of_yaw * plant.per_inertia;
+}
+
 void add_slope(const ExtraForces& extra, double psi_rad, LinearRates& out) {
   const double c = std::cos(psi_rad);
   const double d = std::sin(psi_rad);

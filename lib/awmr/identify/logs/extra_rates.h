@@ -86,6 +86,10 @@ void add_turn_drag(const TurnDrag& drag, double per_mass, LinearRates& out);
 /// respect to I'z is computed, because that derivative is -r_dot/I'z with the complete r_dot.
 void add_side_pull(const LinearPlant& plant, double u_mps, LinearRates& out);
 
+/// Adds the effect of a centre of gravity that lies x_c ahead of the driven axle (extra_forces.h).
+/// Call it after add_yaw().
+void add_axle_offset(const LinearPlant& plant, const State<double>& s, LinearRates& out);
+
 void add_slope(const ExtraForces& extra, double psi_rad, LinearRates& out);
 
 }  // namespace awmr

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -268,6 +269,29 @@ std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const 
   return again;
 }
 
+/// A fit of other families can be worse than `result.best` only because it lacks a delay, a lag, a
+/// force or an error of command or sensor, whose effect the resistance of `result.best` imitates.
+/// If the score tests predict that such a term makes another fit better than the best one, searches
+/// the terms of that fit, and keeps it if it really becomes better. (Effects that no term describes
+/// give both fits the same predictions, so only the difference of the predictions counts.)
+void search_terms_of_others(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                            BestFamily& result) {
+  if (!result.best.fit.usable || result.is_out_of_time || is_over(power_law)) return;
+  const auto predicted = [&](const FamilyFit& other) {
+    const double gain = other.fit.further_term_gain - result.best.fit.further_term_gain;
+    return other.fit.usable ? aic_lead(other.fit, result.best.fit) + gain
+                            : -std::numeric_limits<double>::infinity();
+  };
+  const auto other = std::ranges::max_element(result.others, {}, predicted);
+  if (other == result.others.end() || !(predicted(*other) > kFamilyAicThreshold)) return;
+  LogFitOptions options = from_optimum(other->options, *other);
+  options.finds_delays = true;
+  FamilyFit own = fit_with(logs, std::move(options), other->surge, other->yaw);
+  if (!(aic_lead(own.fit, result.best.fit) > kFamilyAicThreshold)) return;
+  std::swap(own, result.best);
+  *other = std::move(own);
+}
+
 /// Findings of undecided() for each axis, compared with the best alternative family of this axis.
 std::vector<Finding> undecided_axes(const std::string& file, const BestFamily& result) {
   std::vector<Finding> findings;
@@ -370,6 +394,7 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
     const auto others = to_compare_again(winner->second, of_yaw, result.best, result.others);
     if (!others.empty()) comparison.compare(of_yaw, others);
   }
+  search_terms_of_others(logs, power_law, result);
   const std::string& file = logs.front().file;
   for (Finding& finding : undecided_axes(file, result)) {
     result.findings.push_back(std::move(finding));

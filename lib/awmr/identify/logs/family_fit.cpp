@@ -89,6 +89,14 @@ void begin_near(const std::vector<DrivingLog>& logs, const FamilyFit& inner, Fam
   }
 }
 
+/// Resets the sway resistance to `guess` if the fit `inner` could not determine it. Its value may
+/// then be near 0 or so large that the motion no longer depends on it, and a search that starts
+/// there would not leave this value.
+void reset_undetermined_sway(const LogFit& inner, double guess, ParameterValues<double>& values) {
+  const auto i = place_of(inner.quantities, ParameterId::kSwayAlpha);
+  if (i && !inner.refusal_reason[*i].empty()) values[at(ParameterId::kSwayAlpha)] = guess;
+}
+
 /// Options of a fit of the families `surge` and `yaw` that starts at their curves nearest to the
 /// fitted curves of `inner`. `at_optimum`: result of without_terms().
 LogFitOptions near_options(const std::vector<DrivingLog>& logs, LogFitOptions at_optimum,
@@ -150,6 +158,8 @@ FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
   LogFitOptions at_optimum = without_terms(power_law, inner, surge, yaw);
   at_optimum.terms.insert(at_optimum.terms.end(), more.begin(), more.end());
   LogFitOptions options = near_options(logs, at_optimum, inner, surge, yaw);
+  reset_undetermined_sway(inner.fit, power_law.initial_guess[at(ParameterId::kSwayAlpha)],
+                          options.initial_guess);
   options.also_from = {at_optimum.initial_guess};
   return fit_with(logs, std::move(options), surge, yaw);
 }

@@ -98,6 +98,20 @@ std::vector<Finding> side_pull_findings(const LogFit& fit, const std::string& fi
                    std::abs(pull->value), pull->error, pull->value > 0.0 ? "left" : "right")}};
 }
 
+std::vector<Finding> axle_offset_findings(const LogFit& fit, const std::string& file) {
+  const auto offset = significant(fit, ExtraForce::kAxleOffset);
+  if (!offset) return {};
+  return {{file, 0, Severity::kWarning, "axle-offset",
+           fmt::format("the vehicle turns like one whose centre of gravity lies {:.3f} +- {:.3f} m "
+                       "{} the axle whose wheels do not slide sideways, so driving {} resists "
+                       "turning. The fit compensates for this, with I'z about that axle, but "
+                       "simulations and tuned gains ignore it; move the load over the axle, or "
+                       "tune with an observer (awmr tune --observer)",
+                       std::abs(offset->value), offset->error,
+                       offset->value > 0.0 ? "ahead of" : "behind",
+                       offset->value > 0.0 ? "forward" : "backward")}};
+}
+
 std::vector<Finding> turn_drag_findings(const LogFit& fit, const std::string& file) {
   const auto drag = significant(fit, ExtraForce::kTurnDrag);
   if (!drag) return {};
@@ -156,8 +170,8 @@ Identified length_of(const Identified& x, const Identified& y) {
 
 std::vector<Finding> force_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings = stribeck_findings(fit, file);
-  for (auto* const more : {&slope_findings, &side_pull_findings, &turn_drag_findings,
-                           &backward_drag_findings, &force_excess_findings}) {
+  for (auto* const more : {&slope_findings, &side_pull_findings, &axle_offset_findings,
+                           &turn_drag_findings, &backward_drag_findings, &force_excess_findings}) {
     for (Finding& finding : more(fit, file)) findings.push_back(std::move(finding));
   }
   return findings;

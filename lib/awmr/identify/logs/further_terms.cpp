@@ -64,6 +64,7 @@ bool has_both_directions(const DrivingLog& log) {
 ///   - a slope, if heading or position is measured;
 ///   - a side pull, if yaw rate, heading or position is measured;
 ///   - drag in turns, if the commands turn the vehicle;
+///   - a centre of gravity ahead of the axle, if left and right forces differ;
 ///   - a different resistance backward, if the log has forces in both directions;
 ///   - an excess of braking or of backward forces, if the log has forces in both directions. A fit
 ///     contains at most one of the two.
@@ -89,6 +90,9 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
       any_log(problem, has_steering_changes) || any_log(problem, has_force_difference);
   if (turns && !has(quantities, ExtraForce::kTurnDrag)) {
     found.push_back(extra_force(ExtraForce::kTurnDrag));
+  }
+  if (any_log(problem, has_force_difference) && !has(quantities, ExtraForce::kAxleOffset)) {
+    found.push_back(extra_force(ExtraForce::kAxleOffset));
   }
   if (!any_log(problem, has_both_directions)) return;
   // A fit contains either wheel slip or an excess of wheel forces, because the slip of wheel_slip.h
@@ -187,9 +191,9 @@ std::vector<FreeQuantity> all_terms() {
         Kind::kSwayAngle, Kind::kSpeedOffset, Kind::kCompassSin, Kind::kCompassCos}) {
     terms.push_back(free_term(kind));
   }
-  for (const ExtraForce force :
-       {ExtraForce::kSlopeX, ExtraForce::kSlopeY, ExtraForce::kBrakeForce,
-        ExtraForce::kReverseForce, ExtraForce::kBackwardDrag, ExtraForce::kSidePull}) {
+  for (const ExtraForce force : {ExtraForce::kSlopeX, ExtraForce::kSlopeY, ExtraForce::kBrakeForce,
+                                 ExtraForce::kReverseForce, ExtraForce::kBackwardDrag,
+                                 ExtraForce::kSidePull, ExtraForce::kAxleOffset}) {
     terms.push_back(extra_force(force));
   }
   for (const LogChannel channel : kChannels) {

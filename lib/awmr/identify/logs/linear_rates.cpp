@@ -107,6 +107,7 @@ LinearPlant::LinearPlant(const Plant<double>& p, bool by_back_emf, double longes
       has_slope(has_force(extra, ExtraForce::kSlopeX, ExtraForce::kSlopeY) ||
                 has_force(extra, ExtraForce::kSlopeY, ExtraForce::kSlopeX)),
       has_side_pull(has_force(extra, ExtraForce::kSidePull, ExtraForce::kSidePull)),
+      has_axle_offset(has_force(extra, ExtraForce::kAxleOffset, ExtraForce::kAxleOffset)),
       has_turn_drag(has_force(extra, ExtraForce::kTurnDrag, ExtraForce::kTurnDragExponent)),
       has_force_excess(has_force(extra, ExtraForce::kBrakeForce, ExtraForce::kReverseForce) ||
                        has_force(extra, ExtraForce::kReverseForce, ExtraForce::kBrakeForce)) {}
@@ -236,6 +237,7 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
   add_surge(plant, s, force, out);
   add_sway(plant, s, force, out);
   add_yaw(plant, s, force, out);
+  if (plant.has_axle_offset) add_axle_offset(plant, s, out);
   add_wheel_slopes(plant, wheels,
                    {{.u = force.reach * plant.per_mass,
                      .v = force.sin_d * plant.per_mass,

@@ -75,6 +75,7 @@ struct LinearPlant {
   bool has_yaw_stribeck;
   bool has_slope;
   bool has_side_pull;
+  bool has_axle_offset;
   bool has_turn_drag;
   bool has_force_excess;  ///< true: e_b or e_r (extra_forces.h) is free or not 0
 };

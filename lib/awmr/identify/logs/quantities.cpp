@@ -37,10 +37,12 @@ Interval extra_force_range(const FreeQuantity& quantity) {
   constexpr double kLargestExponent = 3.0;
   constexpr Interval kExcess{-0.9, 5.0};
   constexpr Interval kPull_m{-1.0, 1.0};
+  constexpr Interval kOffset_m{-5.0, 5.0};
   if (quantity.is_stribeck_speed()) return {0.01 * quantity.fastest, 0.5 * quantity.fastest};
   if (quantity.is_turn_drag_exponent()) return {0.0, kLargestExponent};
   if (quantity.is_force_excess() || quantity.is(ExtraForce::kBackwardDrag)) return kExcess;
   if (quantity.is(ExtraForce::kSidePull)) return kPull_m;
+  if (quantity.is(ExtraForce::kAxleOffset)) return kOffset_m;
   return quantity.may_be_zero() ? Interval{0.0, 1e6} : Interval{-kSteepest_mps2, kSteepest_mps2};
 }
 
