@@ -85,10 +85,9 @@ bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candid
 bool shows_back_emf(const FamilyFit& with, const FamilyFit& without) {
   if (!with.fit.usable) return false;
   if (with.fit.has_large_drift()) return false;
-  for (std::size_t i = 0; i < with.fit.quantities.size(); ++i) {
-    const bool is_open = !with.fit.refusal_reason[i].empty();
-    if (with.fit.quantities[i].is(ParameterId::kBackEmf) && is_open) return false;
-  }
+  // A fit with an insignificant back-EMF can only have found a better optimum of the model without.
+  const auto k = place_of(with.fit.quantities, ParameterId::kBackEmf);
+  if (!k || !with.fit.refusal_reason[*k].empty() || !with.fit.is_significant(*k)) return false;
   return aic_lead(with.fit, without.fit) > kFamilyAicThreshold;
 }
 

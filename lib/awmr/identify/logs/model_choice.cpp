@@ -184,9 +184,7 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
   LogFitOptions freed = with_back_emf(power_law);
   const FamilyFit same = fit_from(logs, with_limits_for_gain(ideal.best, logs, freed), ideal.best,
                                   ideal.best.surge, ideal.best.yaw);
-  if (shows_back_emf(same, ideal.best)) {
-    ideal.best = searched_again(logs, power_law, std::move(ideal.best), same);
-  }
+  ideal.best = searched_again(logs, power_law, std::move(ideal.best), same);
   if (!shows_back_emf(same, ideal.best)) {
     if (!same.fit.usable && !same.fit.gave_up) {
       ideal.is_out_of_time = is_over(power_law);
