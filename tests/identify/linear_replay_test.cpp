@@ -18,6 +18,8 @@
 namespace awmr::testing {
 namespace {
 
+using Kind = FreeQuantity::Kind;
+
 constexpr int kColumns =
     28;  // every parameter, two delays, the state, and zeros up to whole vectors
 constexpr std::size_t kInputDelay = kParameterCount;
@@ -110,17 +112,18 @@ ByHand by_hand(const DrivingLog& log, double step_s, double latency_s = kSpeedDe
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     parameters.push_back({static_cast<ParameterId>(i), i, 1.0});
   }
-  const CommandPath path{.delay = DelayColumn{input_delay_s, kInputDelay}};
+  CommandPath path;
+  path.terms[Kind::kDelay] = {input_delay_s, kInputDelay};
   const Plant<double> plant =
       plant_by_hand(log.steering_command_rad.has_value(), step_s, drive, friction);
-  LinearStepper stepper(plant, kColumns, parameters, columns_of(path));
+  LinearStepper stepper(plant, kColumns, parameters, path.terms);
   LinearMotion first{first_state<double>([](std::size_t, double x) { return x; }),
                      std::vector<double>(kStateSize * kColumns, 0.0)};
   for (std::size_t i = 0; i < kStateSize; ++i) {
     first.row(kChannels[i], kColumns)[kFirstState + i] = 1.0;
   }
   ByHand found;
-  LinearStepper back(plant, kColumns, parameters, columns_of(path));
+  LinearStepper back(plant, kColumns, parameters, path.terms);
   replay_linear(signals, 0, log.rows(), path, stepper, step_s, first,
                 [&](std::size_t, const LinearMotion& motion) {
                   found.motions.push_back(motion);
@@ -351,24 +354,24 @@ using CommandErrors = std::array<double, kErrors>;
 std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors& errors) {
   constexpr double kStep_s = 0.004;
   const LogSignals signals(log);
-  CommandPath path{.steering_trim = OffsetColumn{errors[0], 0},
-                   .servo_rate = OffsetColumn{errors[5], 5},
-                   .imbalance = OffsetColumn{errors[1], 1},
-                   .exponent = OffsetColumn{std::exp(errors[4]), 4},
-                   .saturation = OffsetColumn{errors[2], 2},
-                   .full_command = 0.3,
-                   .sharpness = OffsetColumn{std::exp(errors[3]), 3}};
+  CommandPath path{.full_command = 0.3};
+  path.terms[Kind::kSteeringTrim] = {errors[0], 0};
+  path.terms[Kind::kForceImbalance] = {errors[1], 1};
+  path.terms[Kind::kForceSaturation] = {errors[2], 2};
+  path.terms[Kind::kSaturationSharpness] = {std::exp(errors[3]), 3};
+  path.terms[Kind::kForceExponent] = {std::exp(errors[4]), 4};
+  path.terms[Kind::kServoRate] = {errors[5], 5};
   if (log.steering_command_rad) {
-    path.steering_dead_band = OffsetColumn{errors[6], 6};
-    path.steering_asymmetry = OffsetColumn{errors[7], 7};
-    path.steering_curve = OffsetColumn{errors[8], 8};
-    path.steering_scale = OffsetColumn{errors[9], 9};
+    path.terms[Kind::kSteeringDeadBand] = {errors[6], 6};
+    path.terms[Kind::kSteeringAsymmetry] = {errors[7], 7};
+    path.terms[Kind::kSteeringCurve] = {errors[8], 8};
+    path.terms[Kind::kSteeringScale] = {errors[9], 9};
     path.steering_stop_rad = 0.35;
   }
   Plant<double> plant = plant_by_hand(log.steering_command_rad.has_value(), kStep_s,
                                       Drive::kFourWheel, Friction::kNone);
   plant.steering_max_rate_radps = errors[5];
-  LinearStepper stepper(plant, kErrors, {}, columns_of(path));
+  LinearStepper stepper(plant, kErrors, {}, path.terms);
   std::vector<LinearMotion> motions;
   const LinearMotion first{first_state<double>([](std::size_t, double x) { return x; }),
                            std::vector<double>(kStateSize * kErrors, 0.0)};
@@ -422,7 +425,8 @@ std::pair<double, std::vector<double>> slip_at(const SlipCoordinates& x, LogChan
   DrivingLog log = commands(true);
   log.force_left.assign(log.rows(), -0.4);
   log.force_right.assign(log.rows(), 0.3);
-  const CommandPath path{.imbalance = OffsetColumn{x[4], 4}};
+  CommandPath path;
+  path.terms[Kind::kForceImbalance] = {x[4], 4};
   LinearMotion motion{{}, std::vector<double>(kStateSize * kSlipColumns, 0.0)};
   motion.state.u_mps = x[0];
   motion.state.r_radps = x[1];
@@ -432,7 +436,7 @@ std::pair<double, std::vector<double>> slip_at(const SlipCoordinates& x, LogChan
       {ParameterId::kWheelDeadZone, 2, plant.wheel_dead_zone}, {ParameterId::kBackEmf, 3, 1.0}};
   std::vector<double> by(kSlipColumns, 0.0);
   const double added =
-      add_wheel_slip({channel, {x[5], 5}, is_ratio}, {plant, parameters, columns_of(path)},
+      add_wheel_slip({channel, {x[5], 5}, is_ratio}, {plant, parameters, path.terms},
                      command_at(LogSignals(log), 0.5, path), motion, kSlipColumns, by.data());
   return {added, by};
 }

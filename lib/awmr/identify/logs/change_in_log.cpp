@@ -15,6 +15,8 @@
 namespace awmr {
 namespace {
 
+using Kind = FreeQuantity::Kind;
+
 /// Fits of the rows before and after a time.
 struct PartFits {
   double t_s = 0.0;  ///< the time
@@ -28,7 +30,6 @@ struct PartFits {
 /// friction and slopes stay in the fits of the parts, because no change of a parameter resembles
 /// them.
 bool is_of_forces(const FreeTerm& term) {
-  using Kind = FreeQuantity::Kind;
   const FreeQuantity& q = term.quantity;
   return (q.kind == Kind::kExtraForce && !q.is_stribeck_or_slope()) ||
          q.kind == Kind::kForceExponent || q.kind == Kind::kForceSaturation ||
@@ -131,7 +132,7 @@ std::vector<ChangedQuantity> changed_quantities(const PartFits& parts) {
   std::vector<std::pair<double, ChangedQuantity>> found;
   for (std::size_t i = 0; i < a.quantities.size(); ++i) {
     const FreeQuantity& q = a.quantities[i];
-    if (q.kind != FreeQuantity::Kind::kParameter || !a.refusal_reason[i].empty()) continue;
+    if (q.kind != Kind::kParameter || !a.refusal_reason[i].empty()) continue;
     const auto j = place_of(b.quantities, q.id);
     if (!j || !b.refusal_reason[*j].empty()) continue;
     const double z =

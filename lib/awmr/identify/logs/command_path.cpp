@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "awmr/core/index.h"
-#include "awmr/identify/logs/quantities.h"
 #include "awmr/model/scalar_math.h"
 
 namespace awmr {
 namespace {
+
+using Kind = FreeQuantity::Kind;
 
 HeldCommand logged_command(const DrivingLog& log, const ActingRows& rows) {
   return {{log.force_left[rows.forces], log.force_right[rows.forces]},
@@ -18,10 +19,7 @@ HeldCommand logged_command(const DrivingLog& log, const ActingRows& rows) {
 /// Multiplies the derivatives of the force f of one side by `slope`, the derivative of the function
 /// by which f was replaced (chain rule).
 void scale_derivatives(double slope, double SideForces<double>::*side, DelayedCommand& at) {
-  for (SideForces<double>* const by :
-       {&at.by_delay, &at.by_lag, &at.by_rise, &at.by_fall, &at.by_imbalance, &at.by_exponent}) {
-    by->*side *= slope;
-  }
+  for (HeldCommand& by : at.by.of_kind) by.force.*side *= slope;
 }
 
 /// Replaces the forces f by the saturated forces f_s, and the derivatives of f with respect to the
@@ -33,8 +31,8 @@ void scale_derivatives(double slope, double SideForces<double>::*side, DelayedCo
 ///     d f_s/d L = d f_s/d s n (1 + s)/(1 - L)
 ///     d f_s/d ln n = f_s (ln(1 + s w) - s w ln(w)/(1 + s w))/n - d f_s/d s n (1 + s) ln(1 - L)
 void saturate(const CommandPath& path, DelayedCommand& at) {
-  const double rest = 1.0 - path.saturation->value;  // 1 - L
-  const double n = path.sharpness ? path.sharpness->value : kDefaultSharpness;
+  const double rest = 1.0 - path.terms.value(Kind::kForceSaturation);  // 1 - L
+  const double n = path.terms.value(Kind::kSaturationSharpness, kDefaultSharpness);
   const double s = std::pow(rest, -n) - 1.0;
   for (double SideForces<double>::*const side :
        {&SideForces<double>::left, &SideForces<double>::right}) {
@@ -45,10 +43,11 @@ void saturate(const CommandPath& path, DelayedCommand& at) {
     const double slope = share / sum;
     const double log_w = w > 0.0 ? std::log(w) : 0.0;
     const double by_s = -force * w * slope / n;
-    at.by_saturation.*side = by_s * n * (1.0 + s) / rest;
-    at.by_sharpness.*side = force * share * (std::log(sum) - s * w * log_w / sum) / n -
-                            by_s * n * (1.0 + s) * std::log(rest);
     scale_derivatives(slope, side, at);
+    at.by[Kind::kForceSaturation].force.*side = by_s * n * (1.0 + s) / rest;
+    at.by[Kind::kSaturationSharpness].force.*side =
+        force * share * (std::log(sum) - s * w * log_w / sum) / n -
+        by_s * n * (1.0 + s) * std::log(rest);
     force *= share;
   }
 }
@@ -58,16 +57,26 @@ void saturate(const CommandPath& path, DelayedCommand& at) {
 ///
 ///     d/df = p |f|^(p - 1),   d/d ln p = p ln|f| |f|^p sgn f
 void raise_to_power(const CommandPath& path, DelayedCommand& at) {
-  const double p = path.exponent->value;
+  const double p = path.terms.value(Kind::kForceExponent);
   for (double SideForces<double>::*const side :
        {&SideForces<double>::left, &SideForces<double>::right}) {
     double& force = at.command.force.*side;
     if (force == 0.0) continue;
     const double share = std::pow(std::abs(force), p - 1.0);
     scale_derivatives(p * share, side, at);
-    at.by_exponent.*side = p * std::log(std::abs(force)) * force * share;
+    at.by[Kind::kForceExponent].force.*side = p * std::log(std::abs(force)) * force * share;
     force *= share;
   }
+}
+
+/// Multiplies the forces by 1 - e (left) and 1 + e (right), with the imbalance e.
+void unbalance(double e, DelayedCommand& at) {
+  SideForces<double>& force = at.command.force;
+  scale_derivatives(1.0 - e, &SideForces<double>::left, at);
+  scale_derivatives(1.0 + e, &SideForces<double>::right, at);
+  at.by[Kind::kForceImbalance].force = {-force.left, force.right};
+  force.left *= 1.0 - e;
+  force.right *= 1.0 + e;
 }
 
 /// Replaces the steering command c by the angle to which the linkage steers, and the derivatives of
@@ -77,10 +86,10 @@ void raise_to_power(const CommandPath& path, DelayedCommand& at) {
 ///
 ///     (1 + q) (1 + s e) c_b (1 + k (c_b/d_max)^2)
 void steer_by_linkage(const CommandPath& path, DelayedCommand& at) {
-  const double band_rad = path.steering_dead_band ? path.steering_dead_band->value : 0.0;
-  const double e = path.steering_asymmetry ? path.steering_asymmetry->value : 0.0;
-  const double k = path.steering_curve ? path.steering_curve->value : 0.0;
-  const double scale = 1.0 + (path.steering_scale ? path.steering_scale->value : 0.0);
+  const double band_rad = path.terms.value(Kind::kSteeringDeadBand);
+  const double e = path.terms.value(Kind::kSteeringAsymmetry);
+  const double k = path.terms.value(Kind::kSteeringCurve);
+  const double scale = 1.0 + path.terms.value(Kind::kSteeringScale);
   double& angle_rad = at.command.steering_rad;
   const bool moves = std::abs(angle_rad) > band_rad;
   const double side = std::copysign(moves ? 1.0 : 0.0, angle_rad);
@@ -88,39 +97,34 @@ void steer_by_linkage(const CommandPath& path, DelayedCommand& at) {
   const double share = 1.0 + side * e;
   const double square = std::pow(beyond_rad / path.steering_stop_rad, 2);
   const double curve = 1.0 + k * square;
-  at.steering_by_dead_band = -side * scale * share * (1.0 + 3.0 * k * square);
-  at.steering_by_asymmetry = scale * std::abs(beyond_rad) * curve;
-  at.steering_by_curve = scale * beyond_rad * share * square;
-  at.steering_by_scale = beyond_rad * share * curve;
-  angle_rad = scale * at.steering_by_scale;
+  const double unscaled_rad = beyond_rad * share * curve;
+  at.by[Kind::kSteeringDeadBand].steering_rad = -side * scale * share * (1.0 + 3.0 * k * square);
+  at.by[Kind::kSteeringAsymmetry].steering_rad = scale * std::abs(beyond_rad) * curve;
+  at.by[Kind::kSteeringCurve].steering_rad = scale * beyond_rad * share * square;
+  at.by[Kind::kSteeringScale].steering_rad = unscaled_rad;
+  angle_rad = scale * unscaled_rad;
 }
 
 /// Applies the constant errors of the commands in this order: stop of the command (if
 /// CommandPath::stop_limits_command), dead band, asymmetry, curve and scale of the
 /// linkage, trim, imbalance, exponent and saturation.
 DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
+  const CommandTerms& terms = path.terms;
   double& steering_rad = at.command.steering_rad;
   if (path.stop_limits_command) {
     steering_rad = math::saturate(steering_rad, path.steering_stop_rad);
   }
-  if (path.steering_dead_band || path.steering_asymmetry || path.steering_curve ||
-      path.steering_scale) {
+  if (terms[Kind::kSteeringDeadBand] || terms[Kind::kSteeringAsymmetry] ||
+      terms[Kind::kSteeringCurve] || terms[Kind::kSteeringScale]) {
     steer_by_linkage(path, at);
   }
-  if (path.steering_trim) {
-    steering_rad += path.steering_trim->value;
-    at.steering_by_trim = 1.0;
+  if (terms[Kind::kSteeringTrim]) {
+    steering_rad += terms.value(Kind::kSteeringTrim);
+    at.by[Kind::kSteeringTrim].steering_rad = 1.0;
   }
-  if (path.imbalance) {
-    at.by_imbalance = {-at.command.force.left, at.command.force.right};
-    for (SideForces<double>* const force :
-         {&at.command.force, &at.by_delay, &at.by_lag, &at.by_rise, &at.by_fall}) {
-      force->left *= 1.0 - path.imbalance->value;
-      force->right *= 1.0 + path.imbalance->value;
-    }
-  }
-  if (path.exponent) raise_to_power(path, at);
-  if (path.saturation) saturate(path, at);
+  if (terms[Kind::kForceImbalance]) unbalance(terms.value(Kind::kForceImbalance), at);
+  if (terms[Kind::kForceExponent]) raise_to_power(path, at);
+  if (terms[Kind::kForceSaturation]) saturate(path, at);
   return at;
 }
 
@@ -130,10 +134,7 @@ void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
   const auto off = [&](double SideForces<double>::*side) {
     if (command.*side != 0.0) return;
     at_wheels.command.force.*side = 0.0;
-    for (SideForces<double>* const by :
-         {&at_wheels.by_lag, &at_wheels.by_delay, &at_wheels.by_rise, &at_wheels.by_fall}) {
-      by->*side = 0.0;
-    }
+    for (HeldCommand& by : at_wheels.by.of_kind) by.force.*side = 0.0;
   };
   off(&SideForces<double>::left);
   off(&SideForces<double>::right);
@@ -153,28 +154,6 @@ std::optional<std::size_t> CommandPath::last_change_column(std::size_t row) cons
   return first_change_column + at(next - changes.begin()) - 1;
 }
 
-CommandColumns columns_of(const CommandPath& path) {
-  const auto column = [](const auto& term) {
-    return term ? std::optional(term->column) : std::nullopt;
-  };
-  return {column(path.delay),
-          column(path.steering_delay),
-          path.lag_column,
-          column(path.rise),
-          column(path.fall),
-          column(path.steering_trim),
-          column(path.steering_dead_band),
-          column(path.steering_asymmetry),
-          column(path.steering_curve),
-          column(path.steering_scale),
-          column(path.servo_rate),
-          column(path.imbalance),
-          column(path.exponent),
-          column(path.saturation),
-          column(path.sharpness),
-          path.turns_slowly};
-}
-
 DelayedCommand command_of_rows(const DrivingLog& log, const ActingRows& rows,
                                const CommandPath& path) {
   return with_errors({logged_command(log, rows)}, path);
@@ -188,16 +167,16 @@ void set_mean_forces(const LogSignals& signals, double t_s, double h_s, const Co
   if (path.ramps) {
     const RampedForces::Mean mean = path.ramps->mean(t_s, h_s, path.force_delay_s());
     at.command.force = mean.force;
-    at.by_lag = mean.by_lag;
-    at.by_delay = mean.by_delay;
-    at.by_rise = mean.by_rise;
-    at.by_fall = mean.by_fall;
+    at.by[Kind::kMotorLag].force = mean.by_lag;
+    at.by[Kind::kDelay].force = mean.by_delay;
+    at.by[Kind::kForceRise].force = mean.by_rise;
+    at.by[Kind::kForceFall].force = mean.by_fall;
     return;
   }
   const LaggedForces::Mean mean = path.lag->mean(signals, t_s, h_s, path.force_delay_s());
   at.command.force = mean.force;
-  at.by_lag = mean.by_lag;
-  at.by_delay = mean.by_delay;
+  at.by[Kind::kMotorLag].force = mean.by_lag;
+  at.by[Kind::kDelay].force = mean.by_delay;
 }
 
 }  // namespace
@@ -223,8 +202,9 @@ DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPa
       kMoment_s, path);
   // Without a ramp, the derivative with respect to its time is an impulse, which has no value at
   // one time.
-  if (path.rise && path.rise->value == 0.0) at.by_rise = {};
-  if (path.fall && path.fall->value == 0.0) at.by_fall = {};
+  for (const Kind ramp : {Kind::kForceRise, Kind::kForceFall}) {
+    if (path.terms.value(ramp) == 0.0) at.by[ramp] = {};
+  }
   return at;
 }
 

@@ -13,8 +13,6 @@
 #include "awmr/trials/log_start.h"
 
 namespace awmr {
-namespace {}  // namespace
-
 std::vector<CandidateTerm> candidate_terms(const LogProblem& problem, const SearchPoint& point) {
   constexpr double kWorthATry = 3.0;
   const std::vector<FreeQuantity> channels = further_terms(problem);
@@ -32,6 +30,8 @@ std::vector<CandidateTerm> candidate_terms(const LogProblem& problem, const Sear
 }
 
 namespace {
+
+using Kind = FreeQuantity::Kind;
 
 /// A filter is kept only if its AIC is lower than that of the best fit so far by more than this.
 constexpr double kLikelierFilter = 10.0;
@@ -68,7 +68,7 @@ void consider_filters_of_both(const NoiseIteration& settled, double delay_s, Los
     std::vector<FreeTerm> terms;
     for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
       if (!model.noise.contains(channel)) return;
-      if (has_kind(model.quantities, FreeQuantity::Kind::kSensorLag, channel)) return;
+      if (has_kind(model.quantities, Kind::kSensorLag, channel)) return;
       for (const FreeTerm& term : second_order_lag_of(channel, delay_s, is_at_rows)) {
         terms.push_back(term);
       }
@@ -102,7 +102,6 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
     terms.push_back({extra_force(ExtraForce::kTurnDragExponent), 1.0});
     terms.push_back({extra_force(ExtraForce::kTurnDragSpeedExponent), 0.5});
   }
-  using Kind = FreeQuantity::Kind;
   for (const auto& [one, other] :
        {std::pair(extra_force(ExtraForce::kSlopeX), extra_force(ExtraForce::kSlopeY)),
         std::pair(free_term(Kind::kCompassSin), free_term(Kind::kCompassCos))}) {
@@ -157,7 +156,7 @@ std::optional<NoiseIteration> consider_smoothing(const NoiseIteration& settled,
   for (const bool is_mean : {false, true}) {
     std::vector<FreeTerm> smoothing;
     for (const auto& [quantity, value, significance] : terms) {
-      if (quantity.kind != FreeQuantity::Kind::kSmoothing) continue;
+      if (quantity.kind != Kind::kSmoothing) continue;
       if (significance < kComparable * terms.front().significance) break;
       smoothing.push_back({smoothing_of(quantity.channel, is_mean), value});
     }
@@ -188,8 +187,8 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
 void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss,
                         LowestAic& lowest) {
   if (has_motor_lag(settled.problem.model)) return;
-  const FreeQuantity delay = free_term(FreeQuantity::Kind::kDelay);
-  const FreeQuantity lag = free_term(FreeQuantity::Kind::kMotorLag);
+  const FreeQuantity delay = free_term(Kind::kDelay);
+  const FreeQuantity lag = free_term(Kind::kMotorLag);
   const double lag_s = 0.5 * std::abs(found_s);
   lowest.consider(tried(settled, {{delay, found_s - lag_s}, {lag, lag_s}}, loss));
   if (found_s > 0.0) lowest.consider(tried(settled, {{lag, found_s}}, loss));
@@ -210,7 +209,7 @@ void consider_angle_beyond_stop(const NoiseIteration& settled, const CandidateTe
 void consider_slip_of_both(const NoiseIteration& settled, const std::vector<CandidateTerm>& terms,
                            const CandidateTerm& candidate, Loss loss, LowestAic& lowest) {
   const FreeQuantity& quantity = candidate.quantity;
-  if (quantity.kind != FreeQuantity::Kind::kWheelSlip || quantity.channel != LogChannel::kSpeed) {
+  if (quantity.kind != Kind::kWheelSlip || quantity.channel != LogChannel::kSpeed) {
     return;
   }
   if (const auto both = with_slip_of_yaw(terms, candidate)) {
@@ -235,8 +234,8 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     if (lowest.best() && candidate_term.significance < kComparable * terms.front().significance)
       break;
     const FreeQuantity& more = candidate_term.quantity;
-    if (more.kind == FreeQuantity::Kind::kSmoothing) continue;  // consider_smoothing()
-    const bool is_sensor = more.kind == FreeQuantity::Kind::kSensorDelay;
+    if (more.kind == Kind::kSmoothing) continue;  // consider_smoothing()
+    const bool is_sensor = more.kind == Kind::kSensorDelay;
     if (is_sensor && has_sensor) continue;
     NoiseIteration fit = tried(settled, with_companion(settled.problem, candidate_term), loss);
     if ((more.is(ExtraForce::kTurnDrag) || more.is_ramp()) && has_wrong_term(fit, settled)) {
@@ -249,7 +248,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     }
     has_sensor |= lowest.consider(std::move(fit)) && is_sensor;
     consider_slip_of_both(settled, terms, candidate_term, loss, lowest);
-    if (more.kind == FreeQuantity::Kind::kDelay) {
+    if (more.kind == Kind::kDelay) {
       consider_motor_lag(settled, found_s, loss, lowest);
       delay_s = found_s;
     }
@@ -261,15 +260,14 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   if (delay_s > 0.0) consider_filters_of_both(settled, delay_s, loss, lowest);
   auto smoothed = consider_smoothing(settled, terms, loss, lowest);
   if (!strongest && !terms.empty() && terms.front().significance > kBeyondDoubt &&
-      terms.front().quantity.kind == FreeQuantity::Kind::kSmoothing) {
+      terms.front().quantity.kind == Kind::kSmoothing) {
     strongest = std::move(smoothed);
   }
   return lowest.best() ? std::move(lowest.best()) : std::move(strongest);
 }
 
 bool is_of_turning(const FreeQuantity& q) {
-  return q.kind == FreeQuantity::Kind::kSteeringTrim ||
-         q.kind == FreeQuantity::Kind::kForceImbalance;
+  return q.kind == Kind::kSteeringTrim || q.kind == Kind::kForceImbalance;
 }
 
 /// Makes both steering trim and force imbalance free if one of them is free and the commands allow

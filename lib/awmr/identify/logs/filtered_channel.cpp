@@ -39,7 +39,7 @@ void FilteredChannel::next(double u, const double* by, double h_s, std::size_t c
     return;
   }
   if (!single_) {
-    single_.emplace(filter_, StageLag<double>{filter_.lag.delay_s, 1.0, 0.0}, y_, by_column_);
+    single_.emplace(filter_, StageLag<double>{filter_.lag.value, 1.0, 0.0}, y_, by_column_);
   }
   single_->next(u, by, h_s, columns);
   y_ = single_->value();
@@ -57,7 +57,7 @@ void FilteredChannel::start_pair(double u, const std::vector<Complex>& by) {
   // of T_1 T_2 by this limit is below rounding of the readings.
   constexpr double kLeastRoot = 1e-4;
   const double zeta = filter_.damping->value;
-  const double lag_s = filter_.lag.delay_s;
+  const double lag_s = filter_.lag.value;
   const Complex exact = Complex(0.0, 1.0) * std::sqrt(Complex(1.0 - zeta * zeta));
   const Complex root = std::abs(exact) < kLeastRoot ? Complex(0.0, kLeastRoot) : exact;
   const Complex root_by = zeta / root;  // because root^2 = zeta^2 - 1

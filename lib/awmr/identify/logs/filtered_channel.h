@@ -13,9 +13,9 @@
 namespace awmr {
 
 struct SensorFilter {
-  DelayColumn lag;                           ///< time constant T, s
-  bool is_at_rows;                           ///< true: one step per row; false: continuous
-  std::optional<OffsetColumn> damping = {};  ///< zeta > 0 of a filter of second order
+  TermColumn lag;                          ///< time constant T, s
+  bool is_at_rows;                         ///< true: one step per row; false: continuous
+  std::optional<TermColumn> damping = {};  ///< zeta > 0 of a filter of second order
 };
 
 /// One stage of a sensor's filter: its time constant, and the derivatives of this time constant.

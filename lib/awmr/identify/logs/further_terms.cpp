@@ -10,6 +10,8 @@
 namespace awmr {
 namespace {
 
+using Kind = FreeQuantity::Kind;
+
 bool any_log(const LogProblem& problem, bool (*has)(const DrivingLog&)) {
   return std::ranges::any_of(problem.windows,
                              [&](const FitWindow& window) { return has(*window.rows.log); });
@@ -28,7 +30,6 @@ double largest_command(const LogProblem& problem) {
 }
 
 void add_times(const LogProblem& problem, std::vector<FreeQuantity>& found) {
-  using Kind = FreeQuantity::Kind;
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   if (!has(quantities, Kind::kDelay)) found.push_back(free_term(Kind::kDelay));
   for (const auto& [measured, noise] : problem.model.noise) {
@@ -97,7 +98,7 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   if (!any_log(problem, has_both_directions)) return;
   // A fit contains either wheel slip or an excess of wheel forces, because the slip of wheel_slip.h
   // does not include this excess.
-  if (!has_force_excess(quantities) && !has(quantities, FreeQuantity::Kind::kWheelSlip)) {
+  if (!has_force_excess(quantities) && !has(quantities, Kind::kWheelSlip)) {
     found.push_back(extra_force(ExtraForce::kBrakeForce));
     found.push_back(extra_force(ExtraForce::kReverseForce));
   }
@@ -113,8 +114,8 @@ void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   for (const auto& [channel, is_shown] : {std::pair(LogChannel::kYawRate, has_heading),
                                           std::pair(LogChannel::kSpeed, has_position)}) {
     if (!is_shown || !measured.contains(channel)) continue;
-    if (has_kind(problem.model.quantities, FreeQuantity::Kind::kSensorScale, channel)) continue;
-    found.push_back(free_term(FreeQuantity::Kind::kSensorScale, channel));
+    if (has_kind(problem.model.quantities, Kind::kSensorScale, channel)) continue;
+    found.push_back(free_term(Kind::kSensorScale, channel));
   }
 }
 
@@ -124,11 +125,9 @@ void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
 void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   if (has_force_excess(quantities)) return;
-  const auto other =
-      std::ranges::find(quantities, FreeQuantity::Kind::kWheelSlip, &FreeQuantity::kind);
+  const auto other = std::ranges::find(quantities, Kind::kWheelSlip, &FreeQuantity::kind);
   for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
-    if (!problem.model.noise.contains(channel) ||
-        has_kind(quantities, FreeQuantity::Kind::kWheelSlip, channel))
+    if (!problem.model.noise.contains(channel) || has_kind(quantities, Kind::kWheelSlip, channel))
       continue;
     if (channel == LogChannel::kYawRate && !any_log(problem, has_force_difference)) continue;
     for (const bool is_ratio : {false, true}) {
@@ -148,12 +147,11 @@ void add_speed_offset(const LogProblem& problem, std::vector<FreeQuantity>& foun
   const bool turns =
       any_log(problem, has_steering_changes) || any_log(problem, has_force_difference);
   if (!measured.contains(LogChannel::kSpeed) || !shows_yaw || !turns) return;
-  if (has(problem.model.quantities, FreeQuantity::Kind::kSpeedOffset)) return;
-  found.push_back(free_term(FreeQuantity::Kind::kSpeedOffset));
+  if (has(problem.model.quantities, Kind::kSpeedOffset)) return;
+  found.push_back(free_term(Kind::kSpeedOffset));
 }
 
 void add_steering(const LogProblem& problem, std::vector<FreeQuantity>& found) {
-  using Kind = FreeQuantity::Kind;
   if (!any_log(problem, has_steering_changes)) return;
   const auto has_command = [](const DrivingLog& log) {
     return log.steering_command_rad.has_value();
@@ -182,7 +180,6 @@ double begin_of(const FreeQuantity& quantity) {
 /// fit: they need a value from the logs (the largest command or speed, or the rate of the servo),
 /// or another term in the fit.
 std::vector<FreeQuantity> all_terms() {
-  using Kind = FreeQuantity::Kind;
   std::vector<FreeQuantity> terms;
   for (const Kind kind :
        {Kind::kDelay, Kind::kSteeringDelay, Kind::kMotorLag, Kind::kForceRise, Kind::kForceFall,
@@ -211,7 +208,7 @@ std::vector<FreeQuantity> all_terms() {
 
 void add_ramps(const std::vector<FreeQuantity>& quantities, std::vector<FreeQuantity>& found) {
   for (const FreeQuantity& ramp :
-       {force_rise(false), force_rise(true), free_term(FreeQuantity::Kind::kForceFall)}) {
+       {force_rise(false), force_rise(true), free_term(Kind::kForceFall)}) {
     if (!has(quantities, ramp.kind)) found.push_back(ramp);
   }
 }
@@ -224,7 +221,6 @@ bool is_often_filtered(LogChannel channel) {
 }
 
 std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
-  using Kind = FreeQuantity::Kind;
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   std::vector<FreeQuantity> found;
   add_times(problem, found);
@@ -274,7 +270,7 @@ std::vector<std::string> automatic_terms() {
                                  std::string(kSaturationSharpnessName)};
   for (const LogChannel channel : kChannels) {
     if (!is_often_filtered(channel)) continue;
-    names.push_back(free_term(FreeQuantity::Kind::kLagDamping, channel).name());
+    names.push_back(free_term(Kind::kLagDamping, channel).name());
   }
   const std::vector<std::string> requestable = requestable_terms();
   for (const std::string_view name : kExtraForceNames) {

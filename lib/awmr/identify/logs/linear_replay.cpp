@@ -7,6 +7,8 @@
 namespace awmr {
 namespace {
 
+using Kind = FreeQuantity::Kind;
+
 /// Updates the derivatives of the motion with respect to the time of a command change, if this time
 /// is uncertain. `before`: rows of the log whose commands acted until the change; `after`: rows of
 /// the new commands. Forces of motors with lag or ramps are left out, because the mean
@@ -62,17 +64,18 @@ void step_along(const LogSignals& signals, std::size_t row, const ActingRows& ro
 
 void steer(const LogSignals& signals, std::size_t row, double share, const CommandPath& path,
            std::size_t columns, LinearMotion& motion) {
-  motion.state.steering_rad = signals.angle_after(row, share);
-  if (path.steering_trim) motion.state.steering_rad += path.steering_trim->value;
+  const auto& trim = path.terms[Kind::kSteeringTrim];
+  motion.state.steering_rad = signals.angle_after(row, share) + (trim ? trim->value : 0.0);
   double* const by_column = motion.row(LogChannel::kSteering, columns);
   std::fill(by_column, by_column + columns, 0.0);
-  if (path.steering_trim && columns > 0) by_column[path.steering_trim->column] = 1.0;
+  if (trim && columns > 0) by_column[trim->column] = 1.0;
 }
 
 void advance_after_row(const LogSignals& signals, std::size_t row, double from_s, double to_s,
                        const CommandPath& path, LinearStepper& stepper, double longest_step_s,
                        LinearMotion& motion) {
-  if (!path.delay && !path.steering_delay) {
+  const CommandTerms& terms = path.terms;
+  if (!terms[Kind::kDelay] && !terms[Kind::kSteeringDelay]) {
     if (row > 0 && from_s == signals.log->t_s[row]) {
       change_time_of_rows(signals, {row - 1, row - 1}, {row, row}, path, stepper, motion);
     }
@@ -108,11 +111,11 @@ void advance_after_row(const LogSignals& signals, std::size_t row, double from_s
 
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
-                            const DelayColumn& delay, double longest_step_s,
+                            const TermColumn& delay, double longest_step_s,
                             const CommandPath& path) {
   const DrivingLog& log = *signals.log;
   const double now_s = log.t_s[begin + motions.size() - 1];
-  const double then_s = now_s - delay.delay_s;
+  const double then_s = now_s - delay.value;
   std::size_t row = begin + motions.size() - 1;
   while (row > begin && log.t_s[row] > then_s) --row;
   LinearMotion motion = motions[row - begin];

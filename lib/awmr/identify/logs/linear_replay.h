@@ -40,12 +40,12 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
   }
 }
 
-/// Returns the motion at an earlier time: delay.delay_s >= 0 seconds before the last of `motions`,
+/// Returns the motion at an earlier time: delay.value >= 0 seconds before the last of `motions`,
 /// which are the motions at the rows from `begin` on. Integrates from the last row before that
 /// time. Before the row `begin`, extrapolates with the rates at this row.
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
-                            const DelayColumn& delay, double longest_step_s,
+                            const TermColumn& delay, double longest_step_s,
                             const CommandPath& path);
 
 }  // namespace awmr

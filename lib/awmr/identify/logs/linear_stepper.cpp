@@ -10,6 +10,8 @@
 namespace awmr {
 namespace {
 
+using Kind = FreeQuantity::Kind;
+
 struct RateOfParameter {
   ParameterId id;
   double DrivenSlopes::*rate;
@@ -63,7 +65,7 @@ std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double
 
 LinearStepper::LinearStepper(const Plant<double>& plant, std::size_t columns,
                              const std::vector<ParameterColumn>& parameters,
-                             const CommandColumns& command_columns, double longest_step_s,
+                             const CommandTerms& terms, double longest_step_s,
                              const ExtraForces& extra)
     : plant_(
           plant,
@@ -71,7 +73,7 @@ LinearStepper::LinearStepper(const Plant<double>& plant, std::size_t columns,
               parameters, [](const ParameterColumn& p) { return p.id == ParameterId::kBackEmf; }),
           longest_step_s, extra),
       columns_(columns),
-      command_columns_(command_columns),
+      command_terms_(terms),
       driven_(kStages * kDrivenSize * columns, 0.0) {
   if (columns == 0) return;
   for (const ParameterColumn& p : parameters) {
@@ -94,24 +96,14 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
       driven[i * columns_ + extra.column] = by.*kDriven[i] * extra.factor;
     }
   }
-  const CommandColumns& c = command_columns_;
-  for_each_force_column(c, command, [&](std::size_t column, const SideForces<double>& by) {
-    set_column({by, 0.0}, column, driven);
+  for_each_column(command_terms_, command, [&](std::size_t column, const HeldCommand& by) {
+    set_column(by, column, driven);
   });
   if (command.change_column) {
-    set_column({command.by_delay, 0.0}, *command.change_column, driven);
+    set_column(command.by[Kind::kDelay], *command.change_column, driven);
   }
-  if (c.steering_trim) set_column({{}, command.steering_by_trim}, *c.steering_trim, driven);
-  if (c.steering_dead_band) {
-    set_column({{}, command.steering_by_dead_band}, *c.steering_dead_band, driven);
-  }
-  if (c.steering_asymmetry) {
-    set_column({{}, command.steering_by_asymmetry}, *c.steering_asymmetry, driven);
-  }
-  if (c.steering_scale) set_column({{}, command.steering_by_scale}, *c.steering_scale, driven);
-  if (c.steering_curve) set_column({{}, command.steering_by_curve}, *c.steering_curve, driven);
-  if (c.servo_rate) {
-    driven[(kDrivenSize - 1) * columns_ + *c.servo_rate] = rates_.steering_by_max_rate;
+  if (const auto& rate = command_terms_[Kind::kServoRate]) {
+    driven[(kDrivenSize - 1) * columns_ + rate->column] = rates_.steering_by_max_rate;
   }
 }
 
@@ -227,20 +219,25 @@ State<double> LinearStepper::step_along_tangent(const DelayedCommand& command, d
 
 void LinearStepper::change_command(const DelayedCommand& before, const DelayedCommand& after,
                                    LinearMotion& motion) {
-  const CommandColumns& c = command_columns_;
   if (columns_ == 0) return;
+  const auto& delay = command_terms_[Kind::kDelay];
+  const auto& steering_delay = command_terms_[Kind::kSteeringDelay];
   const State<double> old = rates(before, motion);
   const State<double> now = rates(after, motion);
   for (const LogChannel channel : kChannels) {
     const double less = channel_of(old, channel) - channel_of(now, channel);
     double* const row = motion.row(channel, columns_);
-    if (c.delay) row[*c.delay] += less;
-    if (c.steering_delay && channel == LogChannel::kSteering) row[*c.steering_delay] += less;
+    if (delay) row[delay->column] += less;
+    if (steering_delay && channel == LogChannel::kSteering) row[steering_delay->column] += less;
   }
   const RampImpulses impulses =
-      ramp_impulses(before.command.force, after.command.force, c.turns_slowly);
-  if (c.rise) add_impulse(*c.rise, impulses.by_rise, motion);
-  if (c.fall) add_impulse(*c.fall, impulses.by_fall, motion);
+      ramp_impulses(before.command.force, after.command.force, command_terms_.turns_slowly);
+  if (const auto& rise = command_terms_[Kind::kForceRise]) {
+    add_impulse(rise->column, impulses.by_rise, motion);
+  }
+  if (const auto& fall = command_terms_[Kind::kForceFall]) {
+    add_impulse(fall->column, impulses.by_fall, motion);
+  }
 }
 
 void LinearStepper::add_impulse(std::size_t column, const SideForces<double>& area,

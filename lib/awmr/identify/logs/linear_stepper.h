@@ -43,12 +43,11 @@ class LinearStepper {
  public:
   /// `columns`: number of columns, the unknowns of the fit with respect to which the state is
   /// differentiated; 0: only the state is computed. `parameters`: the columns that are model
-  /// parameters. `command_columns`: columns_of() of the command path. `longest_step_s`, `extra`: as
-  /// for LinearPlant.
+  /// parameters. `terms`: those of the command path. `longest_step_s`, `extra`: as for
+  /// LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
-                const std::vector<ParameterColumn>& parameters,
-                const CommandColumns& command_columns, double longest_step_s = 0.0,
-                const ExtraForces& extra = {});
+                const std::vector<ParameterColumn>& parameters, const CommandTerms& terms,
+                double longest_step_s = 0.0, const ExtraForces& extra = {});
   /// Makes one classical Runge-Kutta step of h_s seconds with friction, like step_with_friction().
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// Makes one Euler step of h_s seconds (of either sign). Returns the rates before the step.
@@ -113,7 +112,7 @@ class LinearStepper {
 
   LinearPlant plant_;
   std::size_t columns_;
-  CommandColumns command_columns_;
+  CommandTerms command_terms_;
   std::vector<Term> terms_;
   Sliding<double> way_;
   LinearRates rates_;

@@ -24,6 +24,8 @@
 namespace awmr {
 namespace {
 
+using Kind = FreeQuantity::Kind;
+
 /// The final search ends when a step changes the cost by less than this (relative). The cost is
 /// about half the number of samples, and a step of d standard errors changes it by d^2/2. With 100
 /// 000 samples, the last step is therefore shorter than 0.01 standard errors.
@@ -318,7 +320,6 @@ LogFit fit_roughly(const std::vector<DrivingLog>& logs, const LogFitOptions& opt
 }
 
 LogFitOptions with_terms_of(const LogFit& fit, LogFitOptions options) {
-  using Kind = FreeQuantity::Kind;
   if (fit.quantities.empty()) return options;
   options.terms.clear();
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
@@ -333,7 +334,7 @@ ParameterValues<double> fitted_values(const LogFitOptions& options, const LogFit
   ParameterValues<double> values = options.initial_guess;
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
-    if (q.kind == FreeQuantity::Kind::kParameter) values[at(q.id)] = q.value(fit.coordinates[i]);
+    if (q.kind == Kind::kParameter) values[at(q.id)] = q.value(fit.coordinates[i]);
   }
   return values;
 }

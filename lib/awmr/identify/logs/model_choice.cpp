@@ -14,6 +14,8 @@
 namespace awmr {
 namespace {
 
+using Kind = FreeQuantity::Kind;
+
 bool is_open(const FamilyChoice& choice) {
   return !choice.family || (!choice.requested && choice.family == Family::kPower);
 }
@@ -97,13 +99,12 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
     const FreeQuantity& q = first.fit.quantities[i];
     const double value = q.value(first.fit.coordinates[i]);
     if (q.is(ParameterId::kSteeringTimeConstant)) lag_s = value;
-    if (q.kind == FreeQuantity::Kind::kSteeringDelay) late_stamps_s = std::max(0.0, -value);
+    if (q.kind == Kind::kSteeringDelay) late_stamps_s = std::max(0.0, -value);
   }
   if (!lag_s || *lag_s - late_stamps_s > kOfRow * logs.front().median_step_s()) return false;
   LogFitOptions from = from_optimum(std::move(power_law), first);
   std::erase(from.free, ParameterId::kSteeringTimeConstant);
   std::erase_if(from.terms, [](const FreeTerm& term) {
-    using Kind = FreeQuantity::Kind;
     const Kind kind = term.quantity.kind;
     return kind == Kind::kSteeringDelay ||
            (term.quantity.is_of_linkage() && kind != Kind::kSteeringTrim);

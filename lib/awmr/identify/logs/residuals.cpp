@@ -19,7 +19,7 @@ template <class Visit>
 void for_each_row(const LogModel& model, const FitWindow& window, const SimulatedVehicle& vehicle,
                   std::size_t columns, Visit visit) {
   const double h = model.longest_step_s;
-  LinearStepper stepper(vehicle.plant, columns, vehicle.parameters, columns_of(vehicle.path), h,
+  LinearStepper stepper(vehicle.plant, columns, vehicle.parameters, vehicle.path.terms, h,
                         vehicle.extra);
   SensorReadings readings(model, window, vehicle, columns);
   replay_linear(*window.signals, window.rows.begin, window.rows.end, vehicle.path, stepper, h,
@@ -82,9 +82,9 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Simula
   const std::vector<Sample>& samples = window.samples();
   const auto visit_sample = [&](std::size_t i, double reading, std::vector<double>& by) {
     const LogChannel c = samples[i].channel;
-    const auto& bias_column = vehicle.sensors.bias_column[at(c)];
-    if (columns > 0 && bias_column) by[*bias_column] += 1.0;
-    visit(i, reading + vehicle.sensors.bias[at(c)] - log[c]->value[samples[i].row], by);
+    const auto& bias = vehicle.sensors.bias[at(c)];
+    if (columns > 0 && bias) by[bias->column] += 1.0;
+    visit(i, reading + (bias ? bias->value : 0.0) - log[c]->value[samples[i].row], by);
   };
   if (vehicle.sensors.any_smoothed()) {
     for_each_smoothed_reading(model, window, vehicle, columns, visit_sample);

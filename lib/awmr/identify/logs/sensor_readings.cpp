@@ -44,7 +44,7 @@ LogSensors::LogSensors(const LogSignals& signals, const SensorTerms& terms, cons
     : signals_(signals),
       terms_(terms),
       path_(path),
-      wheels_{plant, parameters, columns_of(path)},
+      wheels_{plant, parameters, path.terms},
       row_(columns) {}
 
 double LogSensors::read(LogChannel c, const LinearMotion& motion, double t_s) {
@@ -125,8 +125,8 @@ SensorReadings::SensorReadings(const LogModel& model, const FitWindow& window,
     : model_(model),
       window_(window),
       vehicle_(vehicle),
-      back_(vehicle.plant, columns, vehicle.parameters, columns_of(vehicle.path),
-            model.longest_step_s, vehicle.extra),
+      back_(vehicle.plant, columns, vehicle.parameters, vehicle.path.terms, model.longest_step_s,
+            vehicle.extra),
       sensors_(*window.signals, vehicle.sensors, vehicle.path, vehicle.plant, vehicle.parameters,
                columns),
       row_(columns) {
@@ -162,7 +162,7 @@ double SensorReadings::read(LogChannel c, const LinearMotion& now) {
       delay ? sensors_.read(c,
                             earlier_motion(*window_.signals, window_.rows.begin, motions_, back_,
                                            *delay, model_.longest_step_s, vehicle_.path),
-                            t_s - delay->delay_s)
+                            t_s - delay->value)
             : sensors_.read(c, now, t_s);
   row_ = sensors_.row();
   return value;

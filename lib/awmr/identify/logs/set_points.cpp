@@ -10,6 +10,8 @@
 namespace awmr {
 namespace {
 
+using Kind = FreeQuantity::Kind;
+
 using Signal = std::vector<double>;
 
 /// Returns the unit to which the values of the signal were rounded: the smallest difference of two
@@ -133,7 +135,6 @@ std::optional<std::vector<DrivingLog>> with_held_set_points(const std::vector<Dr
 
 bool are_set_points_held(const std::vector<DrivingLog>& held, const LogFitOptions& power_law,
                          const FamilyFit& first) {
-  using Kind = FreeQuantity::Kind;
   constexpr double kAlike = 10.0;  // largest accepted increase of AIC
   LogFitOptions from = from_optimum(power_law, first);
   std::erase_if(from.terms, [](const FreeTerm& term) {

@@ -11,6 +11,8 @@
 namespace awmr {
 namespace {
 
+using Kind = FreeQuantity::Kind;
+
 /// Raises a servo time constant below h/2 to h/2, the shortest that Runge-Kutta steps of h seconds
 /// resolve. With a shorter time constant, which a search may try, the integration would diverge.
 /// Also removes the column of the time constant, which then has no effect.
@@ -35,67 +37,20 @@ Smoothing smoothing_at(const FitWindow& window, const FreeQuantity& quantity, do
 /// `i`: its column.
 void set_command_term(const FreeQuantity& q, double number, std::size_t i, const FitWindow& window,
                       CommandPath& path) {
-  using Kind = FreeQuantity::Kind;
-  const bool has_command = window.rows.log->steering_command_rad.has_value();
+  const DrivingLog& log = *window.rows.log;
+  const bool has_command = log.steering_command_rad.has_value();
   if (q.is_beyond_stop && has_command) path.stop_limits_command = true;
-  switch (q.kind) {
-    case Kind::kDelay:
-      path.delay = {number, i};
-      break;
-    case Kind::kSteeringDelay:
-      path.steering_delay = {number, i};
-      break;
-    case Kind::kMotorLag:
-      path.lag.emplace(*window.rows.log, window.rows.begin, window.rows.end, number);
-      path.lag_column = i;
-      break;
-    case Kind::kForceRise:
-      path.rise = {number, i};
-      path.turns_slowly = q.turns_slowly;
-      break;
-    case Kind::kForceFall:
-      path.fall = {number, i};
-      break;
-    case Kind::kSteeringTrim:
-      path.steering_trim = {number, i};
-      break;
-    case Kind::kSteeringDeadBand:
-      if (has_command) path.steering_dead_band = {number, i};
-      break;
-    case Kind::kSteeringAsymmetry:
-      if (has_command) path.steering_asymmetry = {number, i};
-      break;
-    case Kind::kSteeringCurve:
-      if (has_command) path.steering_curve = {number, i};
-      break;
-    case Kind::kSteeringScale:
-      if (has_command) path.steering_scale = {number, i};
-      break;
-    case Kind::kServoRate:
-      path.servo_rate = {number, i};
-      break;
-    case Kind::kForceImbalance:
-      path.imbalance = {number, i};
-      break;
-    case Kind::kForceExponent:
-      path.exponent = {number, i};
-      break;
-    case Kind::kForceSaturation:
-      path.saturation = {number, i};
-      path.full_command = q.full_command;
-      break;
-    case Kind::kSaturationSharpness:
-      path.sharpness = {number, i};
-      break;
-    default:
-      break;
-  }
+  if (q.kind == Kind::kParameter || q.kind > CommandTerms::kLast) return;
+  if (q.is_of_linkage() && q.kind != Kind::kSteeringTrim && !has_command) return;
+  path.terms[q.kind] = {number, i};
+  if (q.kind == Kind::kMotorLag) path.lag.emplace(log, window.rows.begin, window.rows.end, number);
+  if (q.kind == Kind::kForceRise) path.terms.turns_slowly = q.turns_slowly;
+  if (q.kind == Kind::kForceSaturation) path.full_command = q.full_command;
 }
 
 /// Does the same for the sensor error that `q` describes, if any.
 void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const FitWindow& window,
                      SensorTerms& sensors) {
-  using Kind = FreeQuantity::Kind;
   const std::size_t c = at(q.channel);
   switch (q.kind) {
     case Kind::kSensorLag:
@@ -133,8 +88,7 @@ void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const 
       sensors.compass_cos = {number, i};
       break;
     case Kind::kBias:
-      sensors.bias[c] = number;
-      sensors.bias_column[c] = i;
+      sensors.bias[c] = {number, i};
       break;
     default:
       break;
@@ -148,16 +102,16 @@ void set_motor_dynamics(const LogModel& model, const FitWindow& window, CommandP
   const auto [begin, end] = std::pair(window.rows.begin, window.rows.end);
   const double given_lag_s = model.vehicle.motor_time_constant_s.value_or(0.0);
   if (!path.lag && given_lag_s > 0.0) path.lag.emplace(log, begin, end, given_lag_s);
-  if (!path.rise && !path.fall) return;
-  const bool has_ramp =
-      (path.rise && path.rise->value > 0.0) || (path.fall && path.fall->value > 0.0);
+  const CommandTerms& terms = path.terms;
+  if (!terms[Kind::kForceRise] && !terms[Kind::kForceFall]) return;
+  const RampTimes times{.rise_s = terms.value(Kind::kForceRise),
+                        .fall_s = terms.value(Kind::kForceFall),
+                        .lag_s = path.lag ? path.lag->time_constant_s() : 0.0,
+                        .turns_slowly = terms.turns_slowly};
   // Without ramps and lag, LinearStepper::change_command() treats the jumps of the forces.
-  if (!has_ramp && !path.lag && path.delay) return;
-  path.ramps.emplace(log, begin, end,
-                     RampTimes{.rise_s = path.rise ? path.rise->value : 0.0,
-                               .fall_s = path.fall ? path.fall->value : 0.0,
-                               .lag_s = path.lag ? path.lag->time_constant_s() : 0.0,
-                               .turns_slowly = path.turns_slowly});
+  const bool has_ramp = times.rise_s > 0.0 || times.fall_s > 0.0;
+  if (!has_ramp && !path.lag && terms[Kind::kDelay]) return;
+  path.ramps.emplace(log, begin, end, times);
 }
 
 }  // namespace
@@ -173,15 +127,16 @@ bool SensorTerms::any_smoothed() const {
 SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
                             const double* coordinates, const double* initial_state) {
   SimulatedVehicle vehicle{};
+  const CommandTerms& terms = vehicle.path.terms;
   vehicle.path.steering_stop_rad = radians(model.vehicle.steering_max_deg);
   ParameterValues<double> values = model.held;
   for (std::size_t i = 0; i < model.quantities.size(); ++i) {
     const FreeQuantity& q = model.quantities[i];
     const double number = q.value(coordinates[i]);
-    if (q.kind == FreeQuantity::Kind::kParameter) {
+    if (q.kind == Kind::kParameter) {
       values[at(q.id)] = number;
       vehicle.parameters.push_back({q.id, i, q.jacobian(coordinates[i])});
-    } else if (q.kind == FreeQuantity::Kind::kExtraForce) {
+    } else if (q.kind == Kind::kExtraForce) {
       vehicle.extra[q.force] = number;
       vehicle.extra.columns.push_back({q.force, i, q.jacobian(coordinates[i])});
     }
@@ -193,8 +148,8 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
       has_force_excess(model.quantities) && has_force_difference(*window.rows.log);
   vehicle.path.switches_off = values[at(ParameterId::kBackEmf)] > 0.0;
   vehicle.plant = resolved_beside_friction(plant_of(model.vehicle, values), model.longest_step_s);
-  if (vehicle.path.servo_rate)
-    vehicle.plant.steering_max_rate_radps = vehicle.path.servo_rate->value;
+  vehicle.plant.steering_max_rate_radps =
+      terms.value(Kind::kServoRate, vehicle.plant.steering_max_rate_radps);
   slow_servo(model.longest_step_s, vehicle.parameters, vehicle.plant);
   // A logged steering angle is used as it is, without the steering limit of the vehicle. If the
   // stop limits the command, it does not limit the angle.
@@ -207,7 +162,7 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
   }
   vehicle.path.changes = window.changes;
   vehicle.path.first_change_column = model.quantities.size() + model.initial.size();
-  if (vehicle.path.steering_trim) vehicle.initial.steering_rad += vehicle.path.steering_trim->value;
+  vehicle.initial.steering_rad += terms.value(Kind::kSteeringTrim);
   return vehicle;
 }
 
@@ -217,8 +172,8 @@ LinearMotion first_motion(const LogModel& model, const SimulatedVehicle& vehicle
   for (std::size_t i = 0; columns > 0 && i < model.initial.size(); ++i) {
     motion.row(model.initial[i].channel, columns)[model.quantities.size() + i] = 1.0;
   }
-  if (vehicle.path.steering_trim && columns > 0) {
-    motion.row(LogChannel::kSteering, columns)[vehicle.path.steering_trim->column] = 1.0;
+  if (const auto& trim = vehicle.path.terms[Kind::kSteeringTrim]; trim && columns > 0) {
+    motion.row(LogChannel::kSteering, columns)[trim->column] = 1.0;
   }
   return motion;
 }

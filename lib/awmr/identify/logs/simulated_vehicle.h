@@ -36,19 +36,18 @@ struct Smoothing {
 /// Errors of the sensors (bias, delay, ...) at one point of the search. For each error that the fit
 /// estimates, also its column among the unknowns of the fit.
 struct SensorTerms {
-  std::array<double, kChannelCount> bias{};
-  std::array<std::optional<std::size_t>, kChannelCount> bias_column{};
-  std::array<std::optional<DelayColumn>, kChannelCount> delay{};
+  std::array<std::optional<TermColumn>, kChannelCount> bias{};
+  std::array<std::optional<TermColumn>, kChannelCount> delay{};
   std::array<std::optional<SensorFilter>, kChannelCount> lag{};  ///< without their damping
-  std::array<std::optional<OffsetColumn>, kChannelCount> lag_damping{};
+  std::array<std::optional<TermColumn>, kChannelCount> lag_damping{};
   std::array<std::optional<Smoothing>, kChannelCount> smoothing{};
-  std::array<std::optional<OffsetColumn>, kChannelCount> scale{};
+  std::array<std::optional<TermColumn>, kChannelCount> scale{};
   std::vector<WheelSlip> slips;
-  std::optional<OffsetColumn> sway_offset;
-  std::optional<OffsetColumn> sway_angle;
-  std::optional<OffsetColumn> speed_offset;
-  std::optional<OffsetColumn> compass_sin;
-  std::optional<OffsetColumn> compass_cos;
+  std::optional<TermColumn> sway_offset;
+  std::optional<TermColumn> sway_angle;
+  std::optional<TermColumn> speed_offset;
+  std::optional<TermColumn> compass_sin;
+  std::optional<TermColumn> compass_cos;
 
   bool any_delayed() const;
   bool any_smoothed() const;

@@ -13,9 +13,11 @@
 namespace awmr {
 namespace {
 
+using Kind = FreeQuantity::Kind;
+
 using Terms = std::vector<FreeTerm>;
 
-bool is_slip(const FreeTerm& term) { return term.quantity.kind == FreeQuantity::Kind::kWheelSlip; }
+bool is_slip(const FreeTerm& term) { return term.quantity.kind == Kind::kWheelSlip; }
 
 /// True if the fit has significant wheel slip or late commands (LogFit::is_significant()). With
 /// both, a reading changes earlier than the logged commands explain.
@@ -70,11 +72,10 @@ Terms with_slip(Terms terms, const std::vector<LogChannel>& channels, bool is_ra
 Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels,
                          const std::vector<DrivingLog>& logs) {
   constexpr double kGuess_s = 0.01;
-  using Kind = FreeQuantity::Kind;
   std::erase_if(terms, is_slip);
   if (std::ranges::none_of(terms,
                            [](const FreeTerm& t) { return t.quantity.kind == Kind::kDelay; })) {
-    terms.push_back({free_term(FreeQuantity::Kind::kDelay), -kGuess_s});
+    terms.push_back({free_term(Kind::kDelay), -kGuess_s});
   }
   const auto is_read_late = [](const FreeTerm& t) {
     return t.quantity.channel == LogChannel::kYawRate &&
@@ -84,7 +85,7 @@ Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels,
       logs, [](const DrivingLog& log) { return log[LogChannel::kYawRate].has_value(); });
   if (channels.front() == LogChannel::kSpeed && channels.size() == 1 && has_yaw_rate &&
       std::ranges::none_of(terms, is_read_late)) {
-    terms.push_back({free_term(FreeQuantity::Kind::kSensorDelay, LogChannel::kYawRate), kGuess_s});
+    terms.push_back({free_term(Kind::kSensorDelay, LogChannel::kYawRate), kGuess_s});
   }
   return terms;
 }

@@ -12,6 +12,8 @@
 namespace awmr {
 namespace {
 
+using Kind = FreeQuantity::Kind;
+
 /// Smallest interval, rad, that contains 0 and all steering commands of the window.
 Interval commanded_angles_rad(const FitWindow& window) {
   Interval angles{0.0, 0.0};
@@ -92,12 +94,10 @@ std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, E
 }
 
 bool has_motor_lag(const LogModel& model) {
-  return model.vehicle.motor_time_constant_s ||
-         has(model.quantities, FreeQuantity::Kind::kMotorLag);
+  return model.vehicle.motor_time_constant_s || has(model.quantities, Kind::kMotorLag);
 }
 
 std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled, Loss loss) {
-  using Kind = FreeQuantity::Kind;
   LogProblem problem = settled.problem;
   SearchPoint point = settled.point;
   if (has_motor_lag(problem.model)) return std::nullopt;
@@ -114,7 +114,7 @@ std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& s
   }
   if (lags_s.size() < 2) return std::nullopt;
   Extended from = extended(with_white_noise(std::move(problem)), std::move(point),
-                           {free_term(FreeQuantity::Kind::kMotorLag)}, {std::ranges::min(lags_s)});
+                           {free_term(Kind::kMotorLag)}, {std::ranges::min(lags_s)});
   NoiseIteration fit = settle_noise(std::move(from.problem), std::move(from.point), loss);
   if (!(akaike_of(fit) < akaike_of(settled))) return std::nullopt;
   return fit;
@@ -123,20 +123,20 @@ std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& s
 std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& settled, Loss loss) {
   constexpr double kShare = 0.5;  // initial guess of the motor lag, divided by the fitted delay
   const std::vector<FreeQuantity>& quantities = settled.problem.model.quantities;
-  const auto delay = std::ranges::find(quantities, FreeQuantity::Kind::kDelay, &FreeQuantity::kind);
+  const auto delay = std::ranges::find(quantities, Kind::kDelay, &FreeQuantity::kind);
   if (delay == quantities.end() || has_motor_lag(settled.problem.model)) return {};
   const std::size_t place = at(delay - quantities.begin());
   const double lag_s = kShare * settled.point.coordinates[place];
   if (!(lag_s > 0.0)) return {};
   NoiseIteration from = settled;
   from.point.coordinates[place] -= lag_s;
-  NoiseIteration lagged = tried(from, {{free_term(FreeQuantity::Kind::kMotorLag), lag_s}}, loss);
+  NoiseIteration lagged = tried(from, {{free_term(Kind::kMotorLag), lag_s}}, loss);
   if (!(akaike_of(lagged) < akaike_of(settled))) return {};
   return settled_if_better(settled, {std::move(lagged.problem), std::move(lagged.point)}, loss);
 }
 
 std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled, Loss loss) {
-  if (has(settled.problem.model.quantities, FreeQuantity::Kind::kServoRate)) return {};
+  if (has(settled.problem.model.quantities, Kind::kServoRate)) return {};
   const double demanded_radps = demanded_rate_radps(settled);
   if (!(demanded_radps > 0.0)) return {};
   const NoiseIteration without = with_largest_steering(settled, loss);

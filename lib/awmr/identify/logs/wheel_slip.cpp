@@ -43,10 +43,9 @@ void add_columns(const Side& side, const SlippingWheels& wheels, const DelayedCo
   for (std::size_t c = 0; c < columns; ++c) {
     by_column[c] += by_speed * (by_u[c] - side.offset_m * by_r[c]);
   }
-  for_each_force_column(wheels.columns, command,
-                        [&](std::size_t column, const SideForces<double>& by) {
-                          by_column[column] += size * f.by_command * by.*side.force;
-                        });
+  for_each_column(wheels.terms, command, [&](std::size_t column, const HeldCommand& by) {
+    by_column[column] += size * f.by_command * by.force.*side.force;
+  });
   for (const ParameterColumn& p : wheels.parameters) {
     if (p.id == ParameterId::kWheelDeadZone)
       by_column[p.column] += size * f.by_dead_zone * p.factor;

@@ -23,7 +23,7 @@ namespace awmr {
 /// Slip s of the wheels that measure a channel, and the column of s among the unknowns of the fit.
 struct WheelSlip {
   LogChannel channel;  ///< speed or yaw rate
-  OffsetColumn slip;
+  TermColumn slip;
   bool is_ratio;
 };
 
@@ -31,7 +31,7 @@ struct WheelSlip {
 struct SlippingWheels {
   const Plant<double>& plant;
   const std::vector<ParameterColumn>& parameters;
-  CommandColumns columns;
+  CommandTerms terms;
 };
 
 /// Returns the change of a channel's reading due to the slip. Adds the derivatives of this change
