@@ -31,15 +31,6 @@ double coasting_s(const DrivingLog& log) {
   return coasts_s;
 }
 
-double fitted_back_emf(const FamilyFit& with, double& std_error) {
-  for (std::size_t i = 0; i < with.fit.quantities.size(); ++i) {
-    if (!with.fit.quantities[i].is(ParameterId::kBackEmf)) continue;
-    std_error = with.fit.report.parameters[i].std_error.value_or(0.0);
-    return with.fit.report.parameters[i].value;
-  }
-  return 0.0;
-}
-
 }  // namespace
 
 std::string why_no_back_emf(const std::vector<DrivingLog>& logs) {
@@ -92,13 +83,13 @@ bool shows_back_emf(const FamilyFit& with, const FamilyFit& without) {
 }
 
 Finding back_emf_finding(const std::string& file, const FamilyFit& with, const FamilyFit& without) {
-  double std_error = 0.0;
-  const double k = fitted_back_emf(with, std_error);
+  const auto i = place_of(with.fit.quantities, ParameterId::kBackEmf);
+  const EstimatorParameter k = i ? with.fit.report.parameters[*i] : EstimatorParameter{};
   return {file, 0, Severity::kWarning, "back-emf",
           fmt::format("the motor force decreases with the speed (back-EMF), by {:.3g} +- {:.2g} of "
                       "the largest force per m/s. The model with back-EMF is used, because {}; the "
                       "coasting sections then determine the resistance",
-                      k, std_error,
+                      k.value, k.std_error.value_or(0.0),
                       without.fit.usable
                           ? fmt::format("its AIC is lower by {}",
                                         aic_decrease_text(aic_lead(with.fit, without.fit)))

@@ -15,6 +15,8 @@
 namespace awmr {
 namespace {
 
+using Kind = FreeQuantity::Kind;
+
 /// A delay, lag or error of commands or sensors that the fit identifies, with its standard error.
 struct FoundTerm {
   FreeQuantity quantity;
@@ -23,7 +25,7 @@ struct FoundTerm {
 };
 
 /// The terms of one kind that the fit identifies and that differ significantly from 0.
-std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
+std::vector<FoundTerm> found_terms(const LogFit& fit, Kind kind) {
   std::vector<FoundTerm> found;
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     if (fit.quantities[i].kind != kind || !fit.refusal_reason[i].empty()) continue;
@@ -63,20 +65,20 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
       "actuator lag, command latency or a slew-rate limit. m', I'z and the sway resistance may be "
       "biased; log the commands that reach the motors, or record slower steps";
   std::vector<Finding> findings;
-  for (const FoundTerm& lag : found_terms(fit, FreeQuantity::Kind::kMotorLag)) {
+  for (const FoundTerm& lag : found_terms(fit, Kind::kMotorLag)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "actuator-lag",
          fmt::format("the motors have a lag with a time constant of {:.3f} +- {:.3f} s; the fit "
                      "includes it. Set motor.time_constant_s in the vehicle file to this value",
                      lag.value, lag.error)});
   }
-  const bool with_lag = has(fit.quantities, FreeQuantity::Kind::kMotorLag);
-  for (const FoundTerm& input : found_terms(fit, FreeQuantity::Kind::kDelay)) {
+  const bool with_lag = has(fit.quantities, Kind::kMotorLag);
+  for (const FoundTerm& input : found_terms(fit, Kind::kDelay)) {
     if (std::abs(input.value) < fit.change_reach_s + 2.0 * input.error) continue;
     findings.push_back(dead_time_finding(input, with_lag, file));
   }
   if (!findings.empty()) return findings;
-  const std::vector<FoundTerm> latency = found_terms(fit, FreeQuantity::Kind::kSensorDelay);
+  const std::vector<FoundTerm> latency = found_terms(fit, Kind::kSensorDelay);
   std::set<LogChannel> channels;
   for (const auto& [channel, noise] : fit.noise) {
     channels.insert(channel == LogChannel::kY ? LogChannel::kX : channel);
@@ -91,9 +93,8 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
 
 /// Finding `compass-deviation` about the coefficients B and C of the compass (FreeQuantity::Kind).
 std::vector<Finding> compass_findings(const LogFit& fit, const std::string& file) {
-  const Identified deviation =
-      length_of(identified(fit, FreeQuantity::Kind::kCompassSin).value_or(Identified{}),
-                identified(fit, FreeQuantity::Kind::kCompassCos).value_or(Identified{}));
+  const Identified deviation = length_of(identified(fit, Kind::kCompassSin).value_or(Identified{}),
+                                         identified(fit, Kind::kCompassCos).value_or(Identified{}));
   if (!is_significant(deviation)) return {};
   return {{file, 0, Severity::kWarning, "compass-deviation",
            fmt::format("the error of heading_deg varies with the heading, by up to {:.1f} +- "
@@ -113,9 +114,9 @@ std::string sensor_delay_text(const FoundTerm& delay, const LogFit&) {
 }
 
 std::string sensor_lag_text(const FoundTerm& lag, const LogFit& fit) {
-  const auto damping = std::ranges::find(
-      fit.quantities, free_term(FreeQuantity::Kind::kLagDamping, lag.quantity.channel).name(),
-      &FreeQuantity::name);
+  const auto damping =
+      std::ranges::find(fit.quantities, free_term(Kind::kLagDamping, lag.quantity.channel).name(),
+                        &FreeQuantity::name);
   return fmt::format(
       "{} was low-pass filtered before it was logged, with a time constant of {:.3f} "
       "+- {:.3f} s{}. The fit estimates this time constant together with the parameters, "
@@ -253,7 +254,7 @@ std::string trim_text(const FoundTerm& trim, const LogFit& fit) {
       "the {} at a steering angle of 0; the fit compensates for this. Centre the "
       "linkage or the servo{}",
       degrees(std::abs(trim.value)), degrees(trim.error), trim.value > 0.0 ? "left" : "right",
-      has(fit.quantities, FreeQuantity::Kind::kForceImbalance)
+      has(fit.quantities, Kind::kForceImbalance)
           ? ""
           : ". If the left and right commands are always equal, motors that are "
             "stronger on one side have the same effect");
@@ -282,18 +283,12 @@ std::string imbalance_text(const FoundTerm& imbalance, const LogFit& fit) {
       "sides{}",
       imbalance.value > 0.0 ? "right" : "left", 100.0 * std::abs(imbalance.value),
       100.0 * imbalance.error,
-      imbalance_advice(imbalance.value, has(fit.quantities, FreeQuantity::Kind::kSteeringTrim)));
+      imbalance_advice(imbalance.value, has(fit.quantities, Kind::kSteeringTrim)));
 }
 
 /// Largest loss of force, as a share of the force without saturation, at which the messages call
 /// the forces proportional to the commands.
 constexpr double kLinear = 0.05;
-
-/// Fitted sharpness n of the saturation (FreeQuantity::Kind). The default if n was not fitted.
-double sharpness_of(const LogFit& fit) {
-  const auto i = place_of(fit.quantities, FreeQuantity::Kind::kSaturationSharpness);
-  return i ? fit.quantities[*i].value(fit.coordinates[*i]) : kDefaultSharpness;
-}
 
 /// Part of a message about a nonlinear force: says that intervals are withdrawn, if they are.
 std::string_view without_intervals(const LogFit& fit) {
@@ -314,7 +309,7 @@ std::string exponent_text(const FoundTerm& exponent, const LogFit& fit) {
 }
 
 std::string saturation_text(const FoundTerm& loss, const LogFit& fit) {
-  const double n = sharpness_of(fit);
+  const double n = fit.value_of(Kind::kSaturationSharpness).value_or(kDefaultSharpness);
   const double full = loss.quantity.full_command;
   const double s = std::pow(1.0 - loss.value, -n) - 1.0;
   const double linear = full * std::pow((std::pow(1.0 - kLinear, -n) - 1.0) / s, 1.0 / n);
@@ -334,56 +329,51 @@ std::string ramp_text(const FoundTerm& time, const LogFit&) {
       "the force of a motor {} by at most {:.2f} +- {:.2f} of F_max per second: a controller ramps "
       "the commands (soft start, slew-rate limit). The fit compensates for this, but simulations "
       "and tuned gains ignore it; switch the ramp off, or log the commands behind it",
-      time.quantity.kind == FreeQuantity::Kind::kForceRise ? "rises" : "falls", 1.0 / time.value,
+      time.quantity.kind == Kind::kForceRise ? "rises" : "falls", 1.0 / time.value,
       time.error / (time.value * time.value));
 }
 
 /// Finding about the terms of one kind.
 struct TermFinding {
-  FreeQuantity::Kind kind;
+  Kind kind;
   const char* code;
   std::string (*text)(const FoundTerm&, const LogFit&);
 };
 
 /// In the order of the findings in model.json. Delay and lag of all commands: actuator_findings().
 constexpr TermFinding kTermFindings[] = {
-    {FreeQuantity::Kind::kSensorDelay, "sensor-delay", sensor_delay_text},
-    {FreeQuantity::Kind::kSensorLag, "sensor-lag", sensor_lag_text},
-    {FreeQuantity::Kind::kSmoothing, "smoothed-channel", smoothing_text},
-    {FreeQuantity::Kind::kSensorScale, "sensor-scale", sensor_scale_text},
-    {FreeQuantity::Kind::kWheelSlip, "wheel-slip", slip_text},
-    {FreeQuantity::Kind::kSwayOffset, "sway-sensor", sway_offset_text},
-    {FreeQuantity::Kind::kSwayAngle, "sway-sensor", sway_angle_text},
-    {FreeQuantity::Kind::kSpeedOffset, "speed-sensor", speed_offset_text},
-    {FreeQuantity::Kind::kSteeringDelay, "steering-delay", steering_delay_text},
-    {FreeQuantity::Kind::kServoRate, "servo-rate", servo_rate_text},
-    {FreeQuantity::Kind::kSteeringDeadBand, "steering-dead-band", dead_band_text},
-    {FreeQuantity::Kind::kSteeringAsymmetry, "steering-asymmetry", asymmetry_text},
-    {FreeQuantity::Kind::kSteeringCurve, "steering-curve", curve_text},
-    {FreeQuantity::Kind::kSteeringScale, "steering-scale", steering_scale_text},
-    {FreeQuantity::Kind::kSteeringTrim, "steering-trim", trim_text},
-    {FreeQuantity::Kind::kForceRise, "force-ramp", ramp_text},
-    {FreeQuantity::Kind::kForceFall, "force-ramp", ramp_text},
-    {FreeQuantity::Kind::kForceImbalance, "force-imbalance", imbalance_text},
-    {FreeQuantity::Kind::kForceExponent, "force-saturation", exponent_text},
-    {FreeQuantity::Kind::kForceSaturation, "force-saturation", saturation_text}};
+    {Kind::kSensorDelay, "sensor-delay", sensor_delay_text},
+    {Kind::kSensorLag, "sensor-lag", sensor_lag_text},
+    {Kind::kSmoothing, "smoothed-channel", smoothing_text},
+    {Kind::kSensorScale, "sensor-scale", sensor_scale_text},
+    {Kind::kWheelSlip, "wheel-slip", slip_text},
+    {Kind::kSwayOffset, "sway-sensor", sway_offset_text},
+    {Kind::kSwayAngle, "sway-sensor", sway_angle_text},
+    {Kind::kSpeedOffset, "speed-sensor", speed_offset_text},
+    {Kind::kSteeringDelay, "steering-delay", steering_delay_text},
+    {Kind::kServoRate, "servo-rate", servo_rate_text},
+    {Kind::kSteeringDeadBand, "steering-dead-band", dead_band_text},
+    {Kind::kSteeringAsymmetry, "steering-asymmetry", asymmetry_text},
+    {Kind::kSteeringCurve, "steering-curve", curve_text},
+    {Kind::kSteeringScale, "steering-scale", steering_scale_text},
+    {Kind::kSteeringTrim, "steering-trim", trim_text},
+    {Kind::kForceRise, "force-ramp", ramp_text},
+    {Kind::kForceFall, "force-ramp", ramp_text},
+    {Kind::kForceImbalance, "force-imbalance", imbalance_text},
+    {Kind::kForceExponent, "force-saturation", exponent_text},
+    {Kind::kForceSaturation, "force-saturation", saturation_text}};
 
 }  // namespace
 
 bool has_implausible_imbalance(const LogFit& fit) {
-  return std::ranges::any_of(
-      found_terms(fit, FreeQuantity::Kind::kForceImbalance),
-      [](const FoundTerm& term) { return std::abs(term.value) > kLargestMotorDifference; });
+  return std::ranges::any_of(found_terms(fit, Kind::kForceImbalance), [](const FoundTerm& term) {
+    return std::abs(term.value) > kLargestMotorDifference;
+  });
 }
 
 bool saturates_much(const LogFit& fit) {
-  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    const FreeQuantity& q = fit.quantities[i];
-    const double x = fit.coordinates[i];
-    if (q.kind == FreeQuantity::Kind::kForceSaturation && x > kLinear) return true;
-    if (q.kind == FreeQuantity::Kind::kForceExponent && 1.0 - q.value(x) > kLinear) return true;
-  }
-  return false;
+  return fit.value_of(Kind::kForceSaturation).value_or(0.0) > kLinear ||
+         1.0 - fit.value_of(Kind::kForceExponent).value_or(1.0) > kLinear;
 }
 
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,

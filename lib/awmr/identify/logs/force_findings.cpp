@@ -18,11 +18,6 @@ std::optional<Identified> significant(const LogFit& fit, ExtraForce force) {
   return found && is_significant(*found) ? found : std::nullopt;
 }
 
-double fitted_value(const LogFit& fit, ParameterId id) {
-  const auto i = place_of(fit.quantities, id);
-  return i ? fit.quantities[*i].value(fit.coordinates[*i]) : 0.0;
-}
-
 struct FoundStribeck {
   std::string_view axis;  ///< "surge." or "yaw.", with which parameter names begin
   std::string_view what;
@@ -41,7 +36,7 @@ std::vector<FoundStribeck> found_stribeck(const LogFit& fit) {
     const auto one = significant(fit, force);
     if (!one) return;
     const auto scale = identified(fit, speed);
-    found.push_back({axis, what, unit, *one, fitted_value(fit, coulomb),
+    found.push_back({axis, what, unit, *one, fit.value_of(coulomb).value_or(0.0),
                      scale ? std::optional(scale->value) : std::nullopt});
   };
   add(ExtraForce::kSurgeStribeck, ExtraForce::kSurgeStribeckSpeed, ParameterId::kSurgeCoulomb,

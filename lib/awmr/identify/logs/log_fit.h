@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,12 @@ struct LogFit {
   bool has_large_drift() const {
     return std::ranges::any_of(
         noise, [](const auto& channel) { return channel.second.overwhelms_sensor(); });
+  }
+  /// Value of the first quantity that is `what` (place_of()). Empty if there is none.
+  template <class What>
+  std::optional<double> value_of(What what) const {
+    const auto i = place_of(quantities, what);
+    return i ? std::optional(quantities[*i].value(coordinates[*i])) : std::nullopt;
   }
   double error_of(std::size_t i) const {
     return std::sqrt(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));

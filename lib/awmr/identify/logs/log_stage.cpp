@@ -124,8 +124,8 @@ Finding in_words(const HeldOut& missed, const std::string& file) {
 /// slow, so the optimum is probably wrong.
 bool has_impossible_servo(const LogFit& fit) {
   constexpr double kAtLimit = 1.0 - 1e-6;
-  const auto i = place_of(fit.quantities, ParameterId::kSteeringTimeConstant);
-  return i && fit.quantities[*i].value(fit.coordinates[*i]) >= kAtLimit * kSlowestServo_s;
+  const auto servo_s = fit.value_of(ParameterId::kSteeringTimeConstant);
+  return servo_s && *servo_s >= kAtLimit * kSlowestServo_s;
 }
 
 Finding impossible_servo_finding(const std::string& file) {

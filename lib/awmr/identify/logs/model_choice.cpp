@@ -93,14 +93,9 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
     return log.steering_command_rad && !log[LogChannel::kSteering];
   };
   if (!std::ranges::all_of(logs, is_command)) return false;
-  std::optional<double> lag_s;
-  double late_stamps_s = 0.0;
-  for (std::size_t i = 0; i < first.fit.quantities.size(); ++i) {
-    const FreeQuantity& q = first.fit.quantities[i];
-    const double value = q.value(first.fit.coordinates[i]);
-    if (q.is(ParameterId::kSteeringTimeConstant)) lag_s = value;
-    if (q.kind == Kind::kSteeringDelay) late_stamps_s = std::max(0.0, -value);
-  }
+  const auto lag_s = first.fit.value_of(ParameterId::kSteeringTimeConstant);
+  const double late_stamps_s =
+      std::max(0.0, -first.fit.value_of(Kind::kSteeringDelay).value_or(0.0));
   if (!lag_s || *lag_s - late_stamps_s > kOfRow * logs.front().median_step_s()) return false;
   LogFitOptions from = from_optimum(std::move(power_law), first);
   std::erase(from.free, ParameterId::kSteeringTimeConstant);

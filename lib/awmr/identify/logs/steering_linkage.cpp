@@ -18,6 +18,8 @@
 namespace awmr {
 namespace {
 
+using Kind = FreeQuantity::Kind;
+
 bool has_linkage_error(const std::vector<FreeQuantity>& quantities) {
   return std::ranges::any_of(quantities, &FreeQuantity::is_of_linkage);
 }
@@ -53,18 +55,11 @@ double coordinate_of(const LogFit& fit, const std::string& name) {
   return fit.coordinates[at(found - fit.quantities.begin())];
 }
 
-/// Value of the first quantity of this kind; 0 if there is none.
-double value_of(const LogFit& fit, FreeQuantity::Kind kind) {
-  const auto found = std::ranges::find(fit.quantities, kind, &FreeQuantity::kind);
-  if (found == fit.quantities.end()) return 0.0;
-  return fit.coordinates[at(found - fit.quantities.begin())];
-}
-
 /// Scale s of the steering angles at one standard deviation, see widen_by_steering_scale(). With a
 /// curve, s brings the angle at the stop closer to the command.
 double possible_scale(const LogFit& fit) {
-  const double asymmetry = value_of(fit, FreeQuantity::Kind::kSteeringAsymmetry);
-  const double log_curve = std::log1p(value_of(fit, FreeQuantity::Kind::kSteeringCurve));
+  const double asymmetry = fit.value_of(Kind::kSteeringAsymmetry).value_or(0.0);
+  const double log_curve = std::log1p(fit.value_of(Kind::kSteeringCurve).value_or(0.0));
   return std::exp(std::copysign(std::hypot(asymmetry, log_curve), -log_curve));
 }
 
@@ -138,7 +133,7 @@ std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFi
 
 void widen_by_steering_scale(const std::vector<DrivingLog>& logs, FamilyFit& chosen) {
   LogFit& fit = chosen.fit;
-  const bool has_scale = has(fit.quantities, FreeQuantity::Kind::kSteeringScale);
+  const bool has_scale = has(fit.quantities, Kind::kSteeringScale);
   const double scale = possible_scale(fit);
   if (!fit.usable || has_scale || scale == 1.0) return;
   const LogFit other = fit_with_scale(logs, chosen, scale).fit;
@@ -156,7 +151,7 @@ void widen_by_steering_scale(const std::vector<DrivingLog>& logs, FamilyFit& cho
 
 bool is_much_curved(const LogFit& fit) {
   constexpr double kLargestStraight = 0.05;
-  return std::abs(value_of(fit, FreeQuantity::Kind::kSteeringCurve)) > kLargestStraight;
+  return std::abs(fit.value_of(Kind::kSteeringCurve).value_or(0.0)) > kLargestStraight;
 }
 
 void withdraw_by_curve(LogFit& fit) {
