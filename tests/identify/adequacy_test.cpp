@@ -1,5 +1,5 @@
 /// Findings about model errors, from the drift in the noise of a fit.
-#include "awmr/identify/logs/adequacy.h"
+#include "awmr/identify/logs/log_checks.h"
 
 #include <gtest/gtest.h>
 

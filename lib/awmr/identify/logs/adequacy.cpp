@@ -1,4 +1,4 @@
-#include "awmr/identify/logs/adequacy.h"
+#include "awmr/identify/logs/log_checks.h"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "awmr/core/option_text.h"
+#include "awmr/identify/logs/family_choice.h"
 #include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/windows.h"
 #include "awmr/identify/uncertainty/akaike.h"

@@ -1,4 +1,4 @@
-#include "awmr/identify/logs/command_findings.h"
+#include "awmr/identify/logs/term_findings.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
-#include "awmr/identify/logs/force_findings.h"
 #include "awmr/identify/logs/steering_linkage.h"
 
 namespace awmr {

@@ -1,4 +1,4 @@
-#include "awmr/identify/logs/force_findings.h"
+#include "awmr/identify/logs/term_findings.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "awmr/identify/logs/inertia_check.h"
+#include "awmr/identify/logs/log_checks.h"
 
 #include <fmt/format.h>
 

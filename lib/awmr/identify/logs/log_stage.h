@@ -46,7 +46,7 @@ struct LogStage {
 /// `interpolated-commands`, `interpolated-set-points`, `wheel-slip`, `speed-controlled`,
 /// `logs-disagree`, `not-identifiable`, `not-converged`, `held-out-misses`, `changed-in-log`,
 /// `inertia-mismatch`, `gyro-scale-open`, `families-not-compared` (a limit was reached), and those
-/// of command_findings.h. Errors (input): those of check_replay(), if a time constant is too small.
+/// of term_findings.h. Errors (input): those of check_replay(), if a time constant is too small.
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                                const IdentifyOptions& options,
                                const std::vector<ParameterId>& requested, const Model& model,

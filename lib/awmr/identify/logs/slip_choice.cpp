@@ -1,4 +1,4 @@
-#include "awmr/identify/logs/slip_choice.h"
+#include "awmr/identify/logs/log_checks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
