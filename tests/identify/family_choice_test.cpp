@@ -11,7 +11,6 @@
 
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/family_fit.h"
-#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/initial_guess.h"
 #include "awmr/identify/logs/log_problem.h"
 #include "awmr/identify/logs/multistart.h"

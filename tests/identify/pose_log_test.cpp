@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "awmr/identify/logs/family_fit.h"
+#include "awmr/identify/logs/initial_guess.h"
 #include "awmr/identify/logs/log_setup.h"
-#include "awmr/identify/logs/pose_guess.h"
 #include "identify/synthetic_log.h"
 
 namespace awmr::testing {

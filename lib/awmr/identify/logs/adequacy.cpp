@@ -7,7 +7,6 @@
 
 #include "awmr/core/option_text.h"
 #include "awmr/identify/logs/family_choice.h"
-#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/windows.h"
 #include "awmr/identify/uncertainty/akaike.h"
 

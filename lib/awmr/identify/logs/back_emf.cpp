@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "awmr/core/index.h"
-#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {

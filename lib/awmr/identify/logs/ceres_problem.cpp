@@ -1,4 +1,4 @@
-#include "awmr/identify/logs/ceres_problem.h"
+#include "awmr/identify/logs/log_problem.h"
 
 #include <algorithm>
 #include <cmath>

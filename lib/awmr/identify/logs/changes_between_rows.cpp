@@ -8,7 +8,6 @@
 #include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
 #include "awmr/identify/logs/back_emf.h"
-#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/further_terms.h"
 #include "awmr/identify/logs/information.h"
 #include "awmr/identify/logs/model_choice.h"

@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "awmr/core/option_text.h"
-#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {

@@ -44,7 +44,7 @@ std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& fir
                             const FamilyContest& contest);
 
 /// Fits the resistance families one after the other and returns the best converged fit by AIC
-/// (family_score.h). Each fit starts from the best optimum so far, so that a family is never worse
+/// (family_fit.h). Each fit starts from the best optimum so far, so that a family is never worse
 /// than a simpler one that it contains. `first`: the fit to improve on, usually of power laws.
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest);

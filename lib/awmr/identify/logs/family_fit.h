@@ -1,5 +1,5 @@
 /// Log fits with given resistance families of surge and yaw. A family is a form of the resistance
-/// law, for example a power law. Private to identify/.
+/// law, for example a power law. And the comparison of two fits by AIC. Private to identify/.
 #pragma once
 
 #include <string>
@@ -16,6 +16,24 @@ struct FamilyFit {
   LogFitOptions options;  ///< options of the fit; they free the terms of both families
   LogFit fit;
 };
+
+/// AIC of a fit's errors under the noise model `noise`; smaller is better. With the innovations
+/// nu_k of all channels, their variances S_k (whitener.h) and n free quantities,
+///
+///     AIC = sum (ln S_k + nu_k^2/S_k) + 2 n
+double aic_under(const NoiseLevels& noise, const LogFit& fit);
+
+/// AIC of `b` minus AIC of `a`, under the noise model of the fit with the smaller errors: > 0 if
+/// `a` is better. Infinity if only `a` is usable, -infinity if only `b` is, 0 if neither is.
+///
+/// Reason for one noise model: each fit estimates its own noise, and the drift in this noise
+/// absorbs the error of the fit's own model. If each fit used its own noise model, a fit with a
+/// smooth error of 0.2 m/s could be likelier than a fit with an error of 3 mm/s.
+double aic_lead(const LogFit& a, const LogFit& b);
+
+/// aic_lead() with each innovation counted as at most three standard deviations, so that a few rows
+/// do not decide.
+double aic_lead_of_most_rows(const LogFit& a, const LogFit& b);
 
 /// True if the limit of work (Effort) or of time is reached, so that no further fit may begin.
 bool is_over(const LogFitOptions& options);

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "awmr/core/index.h"
-#include "awmr/identify/logs/pose_guess.h"
 
 namespace awmr {
 namespace {

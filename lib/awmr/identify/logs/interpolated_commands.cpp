@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/uncertainty/akaike.h"
 #include "awmr/trials/held_signal.h"
 

@@ -8,7 +8,6 @@
 
 #include "awmr/core/option_text.h"
 #include "awmr/identify/logs/back_emf.h"
-#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {

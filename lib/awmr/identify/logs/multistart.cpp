@@ -5,7 +5,6 @@
 
 #include "awmr/core/parallel.h"
 #include "awmr/core/random.h"
-#include "awmr/identify/logs/ceres_problem.h"
 
 namespace awmr {
 namespace {

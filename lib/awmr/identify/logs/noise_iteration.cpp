@@ -6,7 +6,6 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
-#include "awmr/identify/logs/ceres_problem.h"
 #include "awmr/identify/tables/robust.h"
 
 namespace awmr {

@@ -1,4 +1,4 @@
-#include "awmr/identify/logs/pose_guess.h"
+#include "awmr/identify/logs/initial_guess.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

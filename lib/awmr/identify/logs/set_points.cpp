@@ -5,8 +5,6 @@
 #include <limits>
 #include <map>
 
-#include "awmr/identify/logs/family_score.h"
-
 namespace awmr {
 namespace {
 

@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/log_report.h"
 
 namespace awmr {

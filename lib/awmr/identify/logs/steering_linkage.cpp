@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "awmr/core/index.h"
-#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/log_report.h"
 #include "awmr/identify/logs/score_test.h"
 #include "awmr/identify/logs/term_trials.h"
