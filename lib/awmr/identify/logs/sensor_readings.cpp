@@ -38,22 +38,31 @@ double ReadingSeries::read(std::size_t i, const std::optional<Smoothing>& smooth
   return value;
 }
 
-LogSensors::LogSensors(const LogSignals& signals, const SensorTerms& terms, const CommandPath& path,
-                       const Plant<double>& plant, const std::vector<ParameterColumn>& parameters,
-                       std::size_t columns)
-    : signals_(signals),
-      terms_(terms),
-      path_(path),
-      wheels_{plant, parameters, path.terms},
-      row_(columns) {}
+SensorReadings::SensorReadings(const LogModel& model, const FitWindow& window,
+                               const SimulatedVehicle& vehicle, std::size_t columns)
+    : model_(model),
+      window_(window),
+      vehicle_(vehicle),
+      terms_(vehicle.sensors),
+      wheels_{vehicle.plant, vehicle.parameters, vehicle.path.terms},
+      back_(vehicle.plant, columns, vehicle.parameters, vehicle.path.terms, model.longest_step_s,
+            vehicle.extra),
+      row_(columns) {
+  for (const LogChannel c : kChannels) {
+    std::optional<SensorFilter> filter = terms_.lag[at(c)];
+    if (!filter) continue;
+    filter->damping = terms_.lag_damping[at(c)];
+    filters_[at(c)].emplace(*filter, channel_of(window.measured, c), columns);
+  }
+}
 
-double LogSensors::read(LogChannel c, const LinearMotion& motion, double t_s) {
+double SensorReadings::reading_of(LogChannel c, const LinearMotion& motion, double t_s) {
   if (!row_.empty()) std::copy_n(motion.row(c, row_.size()), row_.size(), row_.begin());
   double value = channel_of(motion.state, c);
   for (const WheelSlip& slip : terms_.slips) {
     if (slip.channel != c) continue;
-    value += add_wheel_slip(slip, wheels_, command_at(signals_, t_s, path_), motion, row_.size(),
-                            row_.data());
+    value += add_wheel_slip(slip, wheels_, command_at(*window_.signals, t_s, vehicle_.path), motion,
+                            row_.size(), row_.data());
   }
   if (c == LogChannel::kSway) value = sway(motion);
   if (c == LogChannel::kSpeed && terms_.speed_offset) value += add_speed_offset(motion);
@@ -61,7 +70,7 @@ double LogSensors::read(LogChannel c, const LinearMotion& motion, double t_s) {
   return scaled(c, value);
 }
 
-double LogSensors::scaled(LogChannel c, double value) {
+double SensorReadings::scaled(LogChannel c, double value) {
   const auto& scale = terms_.scale[at(c)];
   if (!scale) return value;
   const double factor = 1.0 + scale->value;
@@ -72,7 +81,7 @@ double LogSensors::scaled(LogChannel c, double value) {
 
 /// Part -y_s r of the reading of a speed sensor that is not on the centre line
 /// (FreeQuantity::Kind::kSpeedOffset). Adds its derivatives to the row.
-double LogSensors::add_speed_offset(const LinearMotion& motion) {
+double SensorReadings::add_speed_offset(const LinearMotion& motion) {
   const double y = terms_.speed_offset->value;
   const double r = motion.state.r_radps;
   if (!row_.empty()) {
@@ -85,7 +94,7 @@ double LogSensors::add_speed_offset(const LinearMotion& motion) {
 
 /// Deviation B sin psi + C cos psi of a compass (FreeQuantity::Kind::kCompassSin). Adds its
 /// derivatives to the row, the derivatives of psi.
-double LogSensors::add_deviation(double heading_rad) {
+double SensorReadings::add_deviation(double heading_rad) {
   if (!terms_.compass_sin && !terms_.compass_cos) return 0.0;
   const double b = terms_.compass_sin ? terms_.compass_sin->value : 0.0;
   const double c = terms_.compass_cos ? terms_.compass_cos->value : 0.0;
@@ -99,7 +108,7 @@ double LogSensors::add_deviation(double heading_rad) {
 
 /// Reading of the sensor of the sway speed, which may sit off the centre of gravity or at an angle
 /// (FreeQuantity::Kind::kSwayOffset).
-double LogSensors::sway(const LinearMotion& motion) {
+double SensorReadings::sway(const LinearMotion& motion) {
   const State<double>& s = motion.state;
   const double x = terms_.sway_offset ? terms_.sway_offset->value : 0.0;
   const double angle = terms_.sway_angle ? terms_.sway_angle->value : 0.0;
@@ -120,34 +129,16 @@ double LogSensors::sway(const LinearMotion& motion) {
   return across * s.v_mps - along * s.u_mps + x * s.r_radps;
 }
 
-SensorReadings::SensorReadings(const LogModel& model, const FitWindow& window,
-                               const SimulatedVehicle& vehicle, std::size_t columns)
-    : model_(model),
-      window_(window),
-      vehicle_(vehicle),
-      back_(vehicle.plant, columns, vehicle.parameters, vehicle.path.terms, model.longest_step_s,
-            vehicle.extra),
-      sensors_(*window.signals, vehicle.sensors, vehicle.path, vehicle.plant, vehicle.parameters,
-               columns),
-      row_(columns) {
-  for (const LogChannel c : kChannels) {
-    std::optional<SensorFilter> filter = vehicle.sensors.lag[at(c)];
-    if (!filter) continue;
-    filter->damping = vehicle.sensors.lag_damping[at(c)];
-    filters_[at(c)].emplace(*filter, channel_of(window.measured, c), columns);
-  }
-}
-
 void SensorReadings::go_on(const LinearMotion& now) {
   const std::vector<double>& t_s = window_.rows.log->t_s;
   const std::size_t row = window_.rows.begin + rows_;
   const double since_s = rows_ > 0 ? t_s[row] - t_s[row - 1] : 0.0;
   ++rows_;
-  if (vehicle_.sensors.any_delayed()) motions_.push_back(now);
+  if (terms_.any_delayed()) motions_.push_back(now);
   for (const LogChannel c : kChannels) {
     if (!filters_[at(c)]) continue;
-    const double input = sensors_.read(c, now, t_s[row]);
-    filters_[at(c)]->next(input, sensors_.row().data(), since_s, sensors_.row().size());
+    const double input = reading_of(c, now, t_s[row]);
+    filters_[at(c)]->next(input, row_.data(), since_s, row_.size());
   }
 }
 
@@ -157,15 +148,11 @@ double SensorReadings::read(LogChannel c, const LinearMotion& now) {
     return filter->value();
   }
   const double t_s = window_.rows.log->t_s[window_.rows.begin + rows_ - 1];
-  const auto& delay = vehicle_.sensors.delay[at(c)];
-  const double value =
-      delay ? sensors_.read(c,
-                            earlier_motion(*window_.signals, window_.rows.begin, motions_, back_,
-                                           *delay, model_.longest_step_s, vehicle_.path),
-                            t_s - delay->value)
-            : sensors_.read(c, now, t_s);
-  row_ = sensors_.row();
-  return value;
+  const auto& delay = terms_.delay[at(c)];
+  if (!delay) return reading_of(c, now, t_s);
+  const LinearMotion then = earlier_motion(*window_.signals, window_.rows.begin, motions_, back_,
+                                           *delay, model_.longest_step_s, vehicle_.path);
+  return reading_of(c, then, t_s - delay->value);
 }
 
 }  // namespace awmr

@@ -30,33 +30,6 @@ class ReadingSeries {
   std::vector<double> rows_;  ///< [index of the row][column]
 };
 
-/// Computes the readings of the sensors for the motion at one time, without latency, filters,
-/// smoothing and bias.
-class LogSensors {
- public:
-  /// All arguments must outlive the object. `columns`: number of columns of the fit.
-  LogSensors(const LogSignals& signals, const SensorTerms& terms, const CommandPath& path,
-             const Plant<double>& plant, const std::vector<ParameterColumn>& parameters,
-             std::size_t columns);
-  /// Returns the reading of channel c for the motion at the time t. Also stores the derivatives of
-  /// this reading with respect to the columns of the fit; row() returns them.
-  double read(LogChannel c, const LinearMotion& motion, double t_s);
-  /// Derivatives of the last reading, one per column of the fit.
-  const std::vector<double>& row() const { return row_; }
-
- private:
-  double sway(const LinearMotion& motion);
-  double add_speed_offset(const LinearMotion& motion);
-  double add_deviation(double heading_rad);
-  double scaled(LogChannel c, double value);
-
-  const LogSignals& signals_;
-  const SensorTerms& terms_;
-  const CommandPath& path_;
-  SlippingWheels wheels_;
-  std::vector<double> row_;
-};
-
 /// Computes the readings of all sensors row by row, while the motion of a window is simulated. They
 /// include latency and filters, but not symmetric smoothing, which needs later rows.
 class SensorReadings {
@@ -73,11 +46,20 @@ class SensorReadings {
   std::vector<double>& row() { return row_; }
 
  private:
+  /// Returns the reading of channel c for the motion at the time t, without latency, filters,
+  /// smoothing and bias. Also sets row_ to its derivatives. The functions below are its parts.
+  double reading_of(LogChannel c, const LinearMotion& motion, double t_s);
+  double sway(const LinearMotion& motion);
+  double add_speed_offset(const LinearMotion& motion);
+  double add_deviation(double heading_rad);
+  double scaled(LogChannel c, double value);
+
   const LogModel& model_;
   const FitWindow& window_;
   const SimulatedVehicle& vehicle_;
+  const SensorTerms& terms_;
+  SlippingWheels wheels_;
   LinearStepper back_;
-  LogSensors sensors_;
   /// Simulated filters, one per channel; empty for channels without a filter.
   std::array<std::optional<FilteredChannel>, kChannelCount> filters_;
   std::size_t rows_ = 0;               ///< number of rows up to now
