@@ -41,17 +41,16 @@ constexpr double kLikelierFilter = 10.0;
 /// `lowest` keeps the best fit so far. Each channel gets
 /// four trials: filters of first and of second order, both continuous or with a step per row.
 void consider_filters(const NoiseIteration& settled,
-                      const std::vector<std::pair<LogChannel, double>>& lags_s, Loss loss,
-                      LowestAic& lowest) {
+                      const std::vector<std::pair<LogChannel, double>>& lags_s, LowestAic& lowest) {
   // If the speed is the only channel, its filter has the same effect as a motor lag, which is more
   // common and therefore preferred.
   if (settled.problem.model.noise.size() <= 1) return;
   for (const auto& [channel, lag_s] : lags_s) {
-    NoiseIteration best = tried(settled, {{sensor_lag_of(channel), lag_s}}, loss);
+    NoiseIteration best = tried(settled, {{sensor_lag_of(channel), lag_s}});
     for (const std::vector<FreeTerm>& other :
          {std::vector<FreeTerm>{{sensor_lag_of(channel, true), lag_s}},
           second_order_lag_of(channel, lag_s), second_order_lag_of(channel, lag_s, true)}) {
-      NoiseIteration fit = tried(settled, other, loss);
+      NoiseIteration fit = tried(settled, other);
       if (akaike_of(fit) < akaike_of(best)) best = std::move(fit);
     }
     lowest.consider(std::move(best), kLikelierFilter);
@@ -61,8 +60,7 @@ void consider_filters(const NoiseIteration& settled,
 /// Tries filters of second order of speed and yaw rate together in place of a delay of the commands
 /// of `delay_s`, because one program (an odometry or tracking filter) often computes both. A filter
 /// of only one of them cannot replace a delay that both show.
-void consider_filters_of_both(const NoiseIteration& settled, double delay_s, Loss loss,
-                              LowestAic& lowest) {
+void consider_filters_of_both(const NoiseIteration& settled, double delay_s, LowestAic& lowest) {
   const LogModel& model = settled.problem.model;
   for (const bool is_at_rows : {false, true}) {
     std::vector<FreeTerm> terms;
@@ -73,7 +71,7 @@ void consider_filters_of_both(const NoiseIteration& settled, double delay_s, Los
         terms.push_back(term);
       }
     }
-    lowest.consider(tried(settled, terms, loss), kLikelierFilter);
+    lowest.consider(tried(settled, terms), kLikelierFilter);
   }
 }
 
@@ -150,7 +148,7 @@ constexpr double kBeyondDoubt = 20.0;
 /// one. Makes each trial with a Gaussian kernel and with a moving average. Returns the trial of all
 /// channels with a Gaussian kernel.
 std::optional<NoiseIteration> consider_smoothing(const NoiseIteration& settled,
-                                                 const std::vector<CandidateTerm>& terms, Loss loss,
+                                                 const std::vector<CandidateTerm>& terms,
                                                  LowestAic& lowest) {
   std::optional<NoiseIteration> first;
   for (const bool is_mean : {false, true}) {
@@ -161,10 +159,10 @@ std::optional<NoiseIteration> consider_smoothing(const NoiseIteration& settled,
       smoothing.push_back({smoothing_of(quantity.channel, is_mean), value});
     }
     if (smoothing.empty()) break;
-    NoiseIteration all = tried(settled, smoothing, loss);
+    NoiseIteration all = tried(settled, smoothing);
     if (!first) first = all;
     lowest.consider(std::move(all));
-    if (smoothing.size() > 1) lowest.consider(tried(settled, {smoothing.front()}, loss));
+    if (smoothing.size() > 1) lowest.consider(tried(settled, {smoothing.front()}));
   }
   return first;
 }
@@ -184,36 +182,35 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
 /// more trials, because a motor lag may have caused this delay: one with a motor lag and a delay,
 /// and, if `found_s` is positive, one with a motor lag alone. (A delay is negative if the time
 /// stamps of the commands are late.)
-void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss,
-                        LowestAic& lowest) {
+void consider_motor_lag(const NoiseIteration& settled, double found_s, LowestAic& lowest) {
   if (has_motor_lag(settled.problem.model)) return;
   const FreeQuantity delay = free_term(Kind::kDelay);
   const FreeQuantity lag = free_term(Kind::kMotorLag);
   const double lag_s = 0.5 * std::abs(found_s);
-  lowest.consider(tried(settled, {{delay, found_s - lag_s}, {lag, lag_s}}, loss));
-  if (found_s > 0.0) lowest.consider(tried(settled, {{lag, found_s}}, loss));
+  lowest.consider(tried(settled, {{delay, found_s - lag_s}, {lag, lag_s}}));
+  if (found_s > 0.0) lowest.consider(tried(settled, {{lag, found_s}}));
 }
 
 /// `fit` is a trial with an error of the steering linkage, in which the stop limits the angle. If
 /// the logs have commands near the stop, tries the same error with a stop that limits the command.
 void consider_angle_beyond_stop(const NoiseIteration& settled, const CandidateTerm& candidate,
-                                const NoiseIteration& fit, Loss loss, LowestAic& lowest) {
+                                const NoiseIteration& fit, LowestAic& lowest) {
   FreeTerm term{candidate.quantity, candidate.value};
   if (!term.quantity.is_of_linkage() || !is_stop_reached(fit.problem, fit.point)) return;
   term.quantity.is_beyond_stop = true;
-  lowest.consider(tried(settled, {term}, loss));
+  lowest.consider(tried(settled, {term}));
 }
 
 /// If the candidate is slip of the speed, also tries slip of speed and yaw rate together, because
 /// the same wheel encoders often measure both.
 void consider_slip_of_both(const NoiseIteration& settled, const std::vector<CandidateTerm>& terms,
-                           const CandidateTerm& candidate, Loss loss, LowestAic& lowest) {
+                           const CandidateTerm& candidate, LowestAic& lowest) {
   const FreeQuantity& quantity = candidate.quantity;
   if (quantity.kind != Kind::kWheelSlip || quantity.channel != LogChannel::kSpeed) {
     return;
   }
   if (const auto both = with_slip_of_yaw(terms, candidate)) {
-    lowest.consider(tried(settled, *both, loss));
+    lowest.consider(tried(settled, *both));
   }
 }
 
@@ -222,7 +219,7 @@ void consider_slip_of_both(const NoiseIteration& settled, const std::vector<Cand
 /// exceeds 20 standard errors (kBeyondDoubt), else empty. Reason: in one round, AIC may rise
 /// although the term has a large effect, because the drift of the noise model had absorbed this
 /// effect before.
-std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
+std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled) {
   LowestAic lowest(settled);
   // Fit with the most significant candidate, if above kBeyondDoubt.
   std::optional<NoiseIteration> strongest;
@@ -237,28 +234,28 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     if (more.kind == Kind::kSmoothing) continue;  // consider_smoothing()
     const bool is_sensor = more.kind == Kind::kSensorDelay;
     if (is_sensor && has_sensor) continue;
-    NoiseIteration fit = tried(settled, with_companion(settled.problem, candidate_term), loss);
+    NoiseIteration fit = tried(settled, with_companion(settled.problem, candidate_term));
     if ((more.is(ExtraForce::kTurnDrag) || more.is_ramp()) && has_wrong_term(fit, settled)) {
       continue;
     }
     const double found_s = fit.point.coordinates.back();
-    consider_angle_beyond_stop(settled, candidate_term, fit, loss, lowest);
+    consider_angle_beyond_stop(settled, candidate_term, fit, lowest);
     if (&candidate_term == &terms.front() && candidate_term.significance > kBeyondDoubt) {
       strongest = fit;
     }
     has_sensor |= lowest.consider(std::move(fit)) && is_sensor;
-    consider_slip_of_both(settled, terms, candidate_term, loss, lowest);
+    consider_slip_of_both(settled, terms, candidate_term, lowest);
     if (more.kind == Kind::kDelay) {
-      consider_motor_lag(settled, found_s, loss, lowest);
+      consider_motor_lag(settled, found_s, lowest);
       delay_s = found_s;
     }
     if (found_s > 0.0 && is_sensor && is_often_filtered(more.channel)) {
       filters.emplace_back(more.channel, found_s);
     }
   }
-  consider_filters(settled, filters, loss, lowest);
-  if (delay_s > 0.0) consider_filters_of_both(settled, delay_s, loss, lowest);
-  auto smoothed = consider_smoothing(settled, terms, loss, lowest);
+  consider_filters(settled, filters, lowest);
+  if (delay_s > 0.0) consider_filters_of_both(settled, delay_s, lowest);
+  auto smoothed = consider_smoothing(settled, terms, lowest);
   if (!strongest && !terms.empty() && terms.front().significance > kBeyondDoubt &&
       terms.front().quantity.kind == Kind::kSmoothing) {
     strongest = std::move(smoothed);
@@ -285,29 +282,29 @@ Extended with_both_of_turning(NoiseIteration fit) {
 
 /// Returns a converged fit with one more free term. Empty if no term lowers AIC enough
 /// (settled_if_better()), or if the term is rejected (has_wrong_term()).
-std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss loss) {
-  std::optional<NoiseIteration> more = likeliest_with_one_more(settled, loss);
+std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled) {
+  std::optional<NoiseIteration> more = likeliest_with_one_more(settled);
   if (!more) return std::nullopt;
-  more = settled_if_better(settled, with_both_of_turning(*std::move(more)), loss);
+  more = settled_if_better(settled, with_both_of_turning(*std::move(more)));
   return more && !has_wrong_term(*more, settled) ? std::move(more) : std::nullopt;
 }
 
 /// Returns a fit with one more free term: a candidate of the score tests, else a slower servo, else
 /// a motor lag. Empty if none of them lowers AIC enough.
-std::optional<NoiseIteration> with_next_term(const NoiseIteration& settled, Loss loss) {
-  if (auto more = with_one_more(settled, loss)) return more;
-  if (auto more = with_slower_servo(settled, loss)) return more;
-  return with_motor_lag_and_delay(settled, loss);
+std::optional<NoiseIteration> with_next_term(const NoiseIteration& settled) {
+  if (auto more = with_one_more(settled)) return more;
+  if (auto more = with_slower_servo(settled)) return more;
+  return with_motor_lag_and_delay(settled);
 }
 
 }  // namespace
 
-NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss,
+NoiseIteration find_delays_and_errors(NoiseIteration settled,
                                       const std::function<bool(const NoiseIteration&)>& ends) {
-  while (auto more = with_next_term(settled, loss)) {  // each step lowers AIC
+  while (auto more = with_next_term(settled)) {  // each step lowers AIC
     settled = std::move(*more);
-    if (auto lag = with_motor_lag_for_filters(settled, loss)) settled = std::move(*lag);
-    if (auto other = with_other_stop(settled, loss)) settled = *std::move(other);
+    if (auto lag = with_motor_lag_for_filters(settled)) settled = std::move(*lag);
+    if (auto other = with_other_stop(settled)) settled = *std::move(other);
     if (ends && ends(settled)) break;
   }
   return settled;

@@ -37,7 +37,7 @@ std::vector<CandidateTerm> candidate_terms(const LogProblem& problem, const Sear
 ///     them and the commands allow an estimate of both, both become free.
 ///
 /// The search also ends if `ends` returns true for a fit with an added term.
-NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss,
+NoiseIteration find_delays_and_errors(NoiseIteration settled,
                                       const std::function<bool(const NoiseIteration&)>& ends = {});
 
 }  // namespace awmr

@@ -179,7 +179,7 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .change_cost = change_cost_of(errors),
           .change_times = change_times_of(errors),
           .change_reach_s = change_reach_s(problem.windows),
-          .errors = errors_by_channel(problem, errors, options.loss),
+          .errors = errors_by_channel(problem, errors),
           .candidate_gain = candidate_gains(problem, solved.point, options.candidate_terms),
           .further_term_gain = further_term_gain(problem, solved.point),
           .widened = found.widened(),
@@ -229,14 +229,14 @@ NoiseIteration settled_from(LogProblem problem, std::vector<double> coordinates,
     some.model.noise = sensor_noise(some.windows);
     const NoiseRounds of_some = rounds_of(some, options);
     SearchPoint from = from_measured(some, std::move(coordinates));
-    NoiseIteration near = settle_noise(std::move(some), std::move(from), options.loss, of_some);
+    NoiseIteration near = settle_noise(std::move(some), std::move(from), of_some);
     if (near.gave_up) return near;
     set_noise(near.problem.model.noise, problem);
     coordinates = std::move(near.point.coordinates);
     rounds = {.is_near = true};
   }
   SearchPoint from = from_measured(problem, std::move(coordinates));
-  return settle_noise(std::move(problem), std::move(from), options.loss, rounds);
+  return settle_noise(std::move(problem), std::move(from), rounds);
 }
 
 /// Fits the logs by a search that starts at these coordinates. Empty if the simulation of the logs
@@ -256,7 +256,7 @@ std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double
                     2.0 * settled.first_cost / settled.problem.readings());
   }
   if (options.finds_delays) {
-    settled = find_delays_and_errors(std::move(settled), options.loss, tests);
+    settled = find_delays_and_errors(std::move(settled), tests);
   }
   if (is_between_rows) return stopped_at(settled);
   settled.problem.ends_at_limit = false;  // Only a fit that has converged gives values.

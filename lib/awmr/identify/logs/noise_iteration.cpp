@@ -43,18 +43,17 @@ void clip(std::vector<ErrorSeries>& channel) {
 }  // namespace
 
 ErrorsByChannel errors_by_channel(const LogProblem& problem,
-                                  const std::vector<WindowErrors>& errors, Loss loss) {
+                                  const std::vector<WindowErrors>& errors) {
   ErrorsByChannel channels = by_channel(problem.windows, errors);
-  if (loss == Loss::kSquared) return channels;
+  if (problem.loss == Loss::kSquared) return channels;
   for (auto& [name, channel] : channels) clip(channel);
   return channels;
 }
 
 namespace {
 
-NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErrors>& errors,
-                         Loss loss) {
-  const ErrorsByChannel channels = errors_by_channel(problem, errors, loss);
+NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErrors>& errors) {
+  const ErrorsByChannel channels = errors_by_channel(problem, errors);
   const double spent = static_cast<double>(problem.unknowns());
   const double free_share = std::max(0.1, 1.0 - spent / problem.readings());
   const std::vector<std::pair<LogChannel, ChannelNoise>> before(problem.model.noise.begin(),
@@ -110,22 +109,21 @@ double sqrt_weight(Loss loss, double r) {
   return 1.0;
 }
 
-void weigh(LogProblem& problem, const std::vector<WindowErrors>& errors, Loss loss) {
-  if (loss == Loss::kSquared) return;
+void weigh(LogProblem& problem, const std::vector<WindowErrors>& errors) {
+  if (problem.loss == Loss::kSquared) return;
   for (std::size_t w = 0; w < problem.windows.size(); ++w) {
     FitWindow& window = problem.windows[w];
     window.weights.clear();
     for (std::size_t i = 0; i < window.samples().size(); ++i) {
       const double std = problem.model.noise.at(window.samples()[i].channel).std();
-      window.weights.push_back(sqrt_weight(loss, errors[w].raw(eigen_index(i)) / std));
+      window.weights.push_back(sqrt_weight(problem.loss, errors[w].raw(eigen_index(i)) / std));
     }
   }
 }
 
 }  // namespace
 
-NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss,
-                            const NoiseRounds& rounds) {
+NoiseIteration settle_noise(LogProblem problem, SearchPoint point, const NoiseRounds& rounds) {
   constexpr double kSettled = 0.01;
   constexpr double kMiddling = 1e-6;
   const double fine_step_s = problem.model.longest_step_s;
@@ -143,11 +141,11 @@ NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss,
     }
     const std::vector<WindowErrors> errors = errors_at(problem, point);
     if (!all_finite(errors)) break;  // simulation diverged; fit_logs() refuses such a fit
-    const NoiseLevels levels = noise_levels(problem, errors, loss);
+    const NoiseLevels levels = noise_levels(problem, errors);
     const double change = largest_change(problem.model.noise, levels);
     problem.model.noise = levels;
     change_cost = change_cost_of(errors);
-    weigh(problem, errors, loss);
+    weigh(problem, errors);
     if (change < kSettled && (round > 0 || rounds.is_near)) break;
   }
   return {std::move(problem), std::move(point), first_cost, change_cost};

@@ -19,7 +19,7 @@ struct NoiseIteration {
 /// Collects the errors (before whitening) by channel. If the fit has a robust loss, clips them at
 /// three robust standard deviations, because outliers would increase the estimated noise.
 ErrorsByChannel errors_by_channel(const LogProblem& problem,
-                                  const std::vector<WindowErrors>& errors, Loss loss);
+                                  const std::vector<WindowErrors>& errors);
 
 /// Options of settle_noise().
 struct NoiseRounds {
@@ -35,7 +35,6 @@ struct NoiseRounds {
 
 /// Alternately fits the coordinates and estimates the noise levels from the residuals (one round
 /// does both). Ends when no noise level changes by 1 % or more, or after NoiseRounds::most rounds.
-NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss,
-                            const NoiseRounds& rounds = {});
+NoiseIteration settle_noise(LogProblem problem, SearchPoint point, const NoiseRounds& rounds = {});
 
 }  // namespace awmr

@@ -95,12 +95,12 @@ bool is_stop_reached(const LogProblem& problem, const SearchPoint& point) {
   return false;
 }
 
-std::optional<NoiseIteration> with_other_stop(const NoiseIteration& settled, Loss loss) {
+std::optional<NoiseIteration> with_other_stop(const NoiseIteration& settled) {
   if (!is_stop_reached(settled.problem, settled.point)) return std::nullopt;
   LogProblem problem = with_white_noise(settled.problem);
   const bool limits_other = !limits_command(problem.model.quantities);
   for (FreeQuantity& q : problem.model.quantities) set_limit(limits_other, q);
-  NoiseIteration fit = settle_noise(std::move(problem), settled.point, loss);
+  NoiseIteration fit = settle_noise(std::move(problem), settled.point);
   if (!(akaike_of(fit) < akaike_of(settled))) return std::nullopt;
   return fit;
 }

@@ -26,7 +26,7 @@ bool is_stop_reached(const LogProblem& problem, const SearchPoint& point);
 /// Fits the logs with the second meaning of the steering stop: if the stop limits the steering
 /// angle in `settled`, it limits the steering command in this fit, and the reverse. Empty if the
 /// AIC of this fit is not lower, or if is_stop_reached() is false.
-std::optional<NoiseIteration> with_other_stop(const NoiseIteration& settled, Loss loss);
+std::optional<NoiseIteration> with_other_stop(const NoiseIteration& settled);
 
 /// Compares the two meanings of the stop for the converged fit `chosen`. The fit with the lower AIC
 /// becomes `chosen`. If the AIC of the other fit is higher by less than 10, the logs do not decide.

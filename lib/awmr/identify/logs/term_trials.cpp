@@ -46,7 +46,7 @@ double demanded_rate_radps(const NoiseIteration& settled) {
 /// Returns a fit in which a rate limit of the servo shows most clearly. For long logs, this is a
 /// new fit of the windows with the largest ranges of steering commands; for short logs, it is
 /// `settled`.
-NoiseIteration with_largest_steering(const NoiseIteration& settled, Loss loss) {
+NoiseIteration with_largest_steering(const NoiseIteration& settled) {
   if (!is_long(settled.problem)) return settled;
   const std::vector<FitWindow>& windows = settled.problem.windows;
   std::vector<std::pair<double, std::size_t>> by_range;
@@ -59,7 +59,7 @@ NoiseIteration with_largest_steering(const NoiseIteration& settled, Loss loss) {
   for (std::size_t i = 0; i < kSampleWindows; ++i) largest.push_back(by_range[i].second);
   std::ranges::sort(largest);
   return settle_noise(with_windows(settled.problem, largest),
-                      with_windows(settled.problem, settled.point, largest), loss,
+                      with_windows(settled.problem, settled.point, largest),
                       {.most = 1, .is_near = true});
 }
 
@@ -69,7 +69,7 @@ double akaike_of(const NoiseIteration& fit) {
   return akaike(fit.problem.model.noise, rows_of(fit.problem.model.quantities)) + fit.change_cost;
 }
 
-NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more, Loss loss) {
+NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more) {
   constexpr double kLargestFirstStep = 3.0;  // limit of an initial guess, in large changes
   std::vector<FreeQuantity> quantities;
   std::vector<double> begin;
@@ -82,13 +82,12 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
   if (has_force_excess(quantities)) {
     from.problem.model.longest_step_s = step_s_at(from.problem.model, from.point.coordinates);
   }
-  return settle_noise(std::move(from.problem), std::move(from.point), loss, {.most = 1});
+  return settle_noise(std::move(from.problem), std::move(from.point), {.most = 1});
 }
 
-std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, Extended from,
-                                                Loss loss) {
+std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, Extended from) {
   constexpr double kPlainly = 10.0;
-  NoiseIteration fit = settle_noise(std::move(from.problem), std::move(from.point), loss);
+  NoiseIteration fit = settle_noise(std::move(from.problem), std::move(from.point));
   if (!(akaike_of(settled) - akaike_of(fit) > kPlainly)) return std::nullopt;
   return fit;
 }
@@ -97,7 +96,7 @@ bool has_motor_lag(const LogModel& model) {
   return model.vehicle.motor_time_constant_s || has(model.quantities, Kind::kMotorLag);
 }
 
-std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled, Loss loss) {
+std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled) {
   LogProblem problem = settled.problem;
   SearchPoint point = settled.point;
   if (has_motor_lag(problem.model)) return std::nullopt;
@@ -115,12 +114,12 @@ std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& s
   if (lags_s.size() < 2) return std::nullopt;
   Extended from = extended(with_white_noise(std::move(problem)), std::move(point),
                            {free_term(Kind::kMotorLag)}, {std::ranges::min(lags_s)});
-  NoiseIteration fit = settle_noise(std::move(from.problem), std::move(from.point), loss);
+  NoiseIteration fit = settle_noise(std::move(from.problem), std::move(from.point));
   if (!(akaike_of(fit) < akaike_of(settled))) return std::nullopt;
   return fit;
 }
 
-std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& settled, Loss loss) {
+std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& settled) {
   constexpr double kShare = 0.5;  // initial guess of the motor lag, divided by the fitted delay
   const std::vector<FreeQuantity>& quantities = settled.problem.model.quantities;
   const auto delay = std::ranges::find(quantities, Kind::kDelay, &FreeQuantity::kind);
@@ -130,20 +129,20 @@ std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& set
   if (!(lag_s > 0.0)) return {};
   NoiseIteration from = settled;
   from.point.coordinates[place] -= lag_s;
-  NoiseIteration lagged = tried(from, {{free_term(Kind::kMotorLag), lag_s}}, loss);
+  NoiseIteration lagged = tried(from, {{free_term(Kind::kMotorLag), lag_s}});
   if (!(akaike_of(lagged) < akaike_of(settled))) return {};
-  return settled_if_better(settled, {std::move(lagged.problem), std::move(lagged.point)}, loss);
+  return settled_if_better(settled, {std::move(lagged.problem), std::move(lagged.point)});
 }
 
-std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled, Loss loss) {
+std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled) {
   if (has(settled.problem.model.quantities, Kind::kServoRate)) return {};
   const double demanded_radps = demanded_rate_radps(settled);
   if (!(demanded_radps > 0.0)) return {};
-  const NoiseIteration without = with_largest_steering(settled, loss);
+  const NoiseIteration without = with_largest_steering(settled);
   LowestAic lowest(without);
   for (const double share : {0.6, 0.25}) {
     const double begin_radps = share * demanded_radps;
-    lowest.consider(tried(without, {{servo_rate(begin_radps), begin_radps}}, loss));
+    lowest.consider(tried(without, {{servo_rate(begin_radps), begin_radps}}));
   }
   if (!lowest.best()) return {};
   NoiseIteration& limited = *lowest.best();
@@ -151,7 +150,7 @@ std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled, L
       extended(settled.problem, settled.point, {limited.problem.model.quantities.back()},
                {limited.problem.initial.back()});
   from.point.coordinates = std::move(limited.point.coordinates);
-  return settled_if_better(settled, std::move(from), loss);
+  return settled_if_better(settled, std::move(from));
 }
 
 }  // namespace awmr

@@ -20,12 +20,11 @@ double akaike_of(const NoiseIteration& fit);
 /// absorb the effect of the terms. Initial guesses are limited to three large changes
 /// (FreeQuantity::large_change), except for quantities that only describe a form
 /// (FreeQuantity::is_form()).
-NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more, Loss loss);
+NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more);
 
 /// Makes a converged fit that starts at `from`. Empty unless its AIC is lower than that of
 /// `settled` by more than 10.
-std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, Extended from,
-                                                Loss loss);
+std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, Extended from);
 
 /// The fit with the lowest AIC among those considered.
 class LowestAic {
@@ -56,15 +55,15 @@ bool has_motor_lag(const LogModel& model);
 /// one by one, although one motor lag has the same effect as all of them in nearly linear motion.
 /// Empty if the motor lag does not lower AIC, if there are fewer than two filters, or if the model
 /// already has a motor lag.
-std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled, Loss loss);
+std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled);
 
 /// Adds a motor lag to a fit with a positive delay of the commands. Empty if there is no such
 /// delay, if the model already has a motor lag, or if AIC does not decrease by more than 10.
-std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& settled, Loss loss);
+std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& settled);
 
 /// Estimates a servo rate limit below that of the vehicle file. Empty if the fit already estimates
 /// a rate limit, if it does not estimate the servo's time constant, or if AIC does not decrease by
 /// more than 10.
-std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled, Loss loss);
+std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled);
 
 }  // namespace awmr
