@@ -174,9 +174,7 @@ std::vector<Finding> force_findings(const LogFit& fit, const std::string& file) 
 
 void withdraw_by_stribeck(LogFit& fit) {
   for (const FoundStribeck& one : found_stribeck(fit)) {
-    for (EstimatorParameter& parameter : fit.report.parameters) {
-      if (one.is_large() && parameter.name.starts_with(one.axis)) withdraw(parameter);
-    }
+    if (one.is_large()) withdraw_intervals(fit.report, one.axis);
   }
 }
 

@@ -101,13 +101,9 @@ EstimatorReport log_report(const LogReportInput& input) {
   return report;
 }
 
-void withdraw_intervals(EstimatorReport& report) {
-  for (EstimatorParameter& parameter : report.parameters) withdraw(parameter);
-}
-
-void withdraw_interval(EstimatorReport& report, std::string_view name) {
+void withdraw_intervals(EstimatorReport& report, std::string_view prefix) {
   for (EstimatorParameter& parameter : report.parameters) {
-    if (parameter.name == name) withdraw(parameter);
+    if (parameter.name.starts_with(prefix)) withdraw(parameter);
   }
 }
 

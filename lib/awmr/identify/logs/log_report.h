@@ -28,8 +28,8 @@ inline void withdraw(EstimatorParameter& parameter) {
   parameter.std_error.reset();
   parameter.ci95.reset();
 }
-void withdraw_intervals(EstimatorReport& report);
-void withdraw_interval(EstimatorReport& report, std::string_view name);
+/// Does so for all parameters whose names begin with `prefix`.
+void withdraw_intervals(EstimatorReport& report, std::string_view prefix = "");
 
 /// Withdraws the intervals of the model parameters in `report` that differ from those in `other` by
 /// more than one standard error. Returns the names of these parameters.

@@ -60,10 +60,10 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   append(stage.findings, adequacy.findings);
   stage.withdraws_intervals = adequacy.withdraws_intervals || found.is_out_of_time;
   if (adequacy.withdraws_sway) {
-    withdraw_interval(chosen.fit.report, info(ParameterId::kSwayAlpha).name);
+    withdraw_intervals(chosen.fit.report, info(ParameterId::kSwayAlpha).name);
   }
   if (adequacy.withdraws_servo) {
-    withdraw_interval(chosen.fit.report, info(ParameterId::kSteeringTimeConstant).name);
+    withdraw_intervals(chosen.fit.report, info(ParameterId::kSteeringTimeConstant).name);
   }
   return chosen;
 }
@@ -309,7 +309,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   withdraw_by_stribeck(chosen.fit);
   widen_by_steering_scale(logs, chosen);
   if (const auto open = widen_by_gyro_scale(logs, chosen)) stage.findings.push_back(*open);
-  withdraw_by_curve(chosen.fit);
+  if (is_much_curved(chosen.fit)) withdraw_intervals(chosen.fit.report, "yaw.");
   if (stage.withdraws_intervals) withdraw_intervals(chosen.fit.report);
   stage.reports[stage.chosen_report] = chosen.fit.report;
   const std::string& file = logs.front().file;

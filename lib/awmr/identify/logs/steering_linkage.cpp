@@ -153,11 +153,4 @@ bool is_much_curved(const LogFit& fit) {
   return std::abs(fit.value_of(Kind::kSteeringCurve).value_or(0.0)) > kLargestStraight;
 }
 
-void withdraw_by_curve(LogFit& fit) {
-  if (!is_much_curved(fit)) return;
-  for (EstimatorParameter& parameter : fit.report.parameters) {
-    if (parameter.name.starts_with("yaw.")) withdraw(parameter);
-  }
-}
-
 }  // namespace awmr

@@ -58,7 +58,4 @@ void widen_by_steering_scale(const std::vector<DrivingLog>& logs, FamilyFit& cho
 /// intervals: its form follows from the steering angles, and the true form of the curve is unknown.
 bool is_much_curved(const LogFit& fit);
 
-/// Withdraws the intervals of the yaw resistance if is_much_curved().
-void withdraw_by_curve(LogFit& fit);
-
 }  // namespace awmr
