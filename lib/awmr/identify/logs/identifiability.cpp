@@ -135,16 +135,31 @@ std::string why_stopped(const FreeQuantity& q, double coordinate) {
   return why;
 }
 
-/// If the parameter `dependent` has to be refused because `cause` was refused, returns a pointer to
-/// its refusal reason, which the caller sets. Null if `cause` is not refused, if `dependent`
-/// already has a reason, or if one of the two is not free.
-std::string* reason_to_add(const std::vector<FreeQuantity>& quantities, ParameterId dependent,
-                           ParameterId cause, Identifiability& found) {
-  const auto place = place_of(quantities, dependent);
-  const auto cause_place = place_of(quantities, cause);
-  if (!place || !cause_place || found.refusal_reason[*cause_place].empty()) return nullptr;
-  std::string& refusal_reason = found.refusal_reason[*place];
-  return refusal_reason.empty() ? &refusal_reason : nullptr;
+/// Refuses the coefficient of a resistance of which another term is refused, and the exponent of a
+/// refused coefficient.
+void refuse_rest_of_resistance(const std::vector<FreeQuantity>& quantities,
+                               Identifiability& found) {
+  constexpr std::pair<ParameterId, ParameterId> kDependents[] = {
+      {ParameterId::kSurgeAlpha, ParameterId::kSurgeCoulomb},
+      {ParameterId::kSurgeAlpha, ParameterId::kSurgeQuadratic},
+      {ParameterId::kSurgeAlpha, ParameterId::kWheelDeadZone},
+      {ParameterId::kYawAlpha, ParameterId::kYawCoulomb},
+      {ParameterId::kYawAlpha, ParameterId::kYawQuadratic},
+      {ParameterId::kSurgeBeta, ParameterId::kSurgeAlpha},
+      {ParameterId::kYawBeta, ParameterId::kYawAlpha}};
+  for (const auto& [dependent, cause] : kDependents) {
+    const auto place = place_of(quantities, dependent);
+    const auto cause_place = place_of(quantities, cause);
+    if (!place || !cause_place) continue;
+    std::string& why = found.refusal_reason[*place];
+    const std::string& why_cause = found.refusal_reason[*cause_place];
+    if (!why.empty() || why_cause.empty()) continue;
+    const bool is_exponent =
+        dependent == ParameterId::kSurgeBeta || dependent == ParameterId::kYawBeta;
+    why = fmt::format("{} is not determined, and {}", info(cause).name,
+                      is_exponent ? "the exponent has no meaning without it"
+                                  : "the resistance needs it: " + why_cause);
+  }
 }
 
 }  // namespace
@@ -199,24 +214,7 @@ Identifiability without_stopped(Identifiability found, const LogProblem& problem
     found.refusal_reason[i] = why_stopped(quantities[i], coordinates[i]);
     refuse_dependent(eigen_index(i), quantities, found);
   }
-  for (const auto& [alpha, term] :
-       {std::pair(ParameterId::kSurgeAlpha, ParameterId::kSurgeCoulomb),
-        std::pair(ParameterId::kSurgeAlpha, ParameterId::kSurgeQuadratic),
-        std::pair(ParameterId::kSurgeAlpha, ParameterId::kWheelDeadZone),
-        std::pair(ParameterId::kYawAlpha, ParameterId::kYawCoulomb),
-        std::pair(ParameterId::kYawAlpha, ParameterId::kYawQuadratic)}) {
-    if (std::string* const why = reason_to_add(quantities, alpha, term, found)) {
-      *why = fmt::format("{} is not determined, and the resistance needs it: {}", info(term).name,
-                         found.refusal_reason[*place_of(quantities, term)]);
-    }
-  }
-  for (const auto& [alpha, beta] : {std::pair(ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta),
-                                    std::pair(ParameterId::kYawAlpha, ParameterId::kYawBeta)}) {
-    if (std::string* const why = reason_to_add(quantities, beta, alpha, found)) {
-      *why = fmt::format("{} is not determined, and the exponent has no meaning without it",
-                         info(alpha).name);
-    }
-  }
+  refuse_rest_of_resistance(quantities, found);
   return found;
 }
 
