@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/option_text.h"
 #include "awmr/identify/logs/family_choice.h"
 #include "awmr/identify/logs/windows.h"
@@ -17,10 +18,8 @@ namespace {
 /// If one of them is better than the power law, returns the advice to use it, else empty.
 std::optional<std::string> try_alternatives(BestFamily alternatives, const FamilyFit& chosen,
                                             Adequacy& adequacy) {
-  for (EstimatorReport& report : reports_of(alternatives.others, chosen)) {
-    adequacy.alternatives.push_back(std::move(report));
-  }
-  for (Finding& finding : alternatives.findings) adequacy.findings.push_back(std::move(finding));
+  append(adequacy.alternatives, reports_of(alternatives.others, chosen));
+  append(adequacy.findings, alternatives.findings);
   if (alternatives.best.surge == Family::kPower) return std::nullopt;
   adequacy.alternatives.push_back(alternatives.best.fit.report);
   return fmt::format("a power law does not fit these logs; use {}, whose AIC is lower by {}",
@@ -56,10 +55,6 @@ bool has_only_positions(const NoiseLevels& noise) {
 }
 
 using Channels = std::vector<LogChannel>;
-
-bool contains(const Channels& channels, LogChannel channel) {
-  return std::ranges::find(channels, channel) != channels.end();
-}
 
 Channels inadequate_channels(const NoiseLevels& noise) {
   Channels channels;

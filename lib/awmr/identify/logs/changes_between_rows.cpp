@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
 #include "awmr/identify/logs/back_emf.h"
@@ -54,7 +55,7 @@ Predicted predicted(const std::vector<WindowSums>& sums, const Eigen::VectorXd& 
     all << change, -solve_ldlt(of_initial, gradient + window.products.block(n, 0, k, n) * change),
         -1.0;
     const Eigen::VectorXd times = -window.change_times * all;
-    result.change_times.insert(result.change_times.end(), times.begin(), times.end());
+    append(result.change_times, times);
   }
   return result;
 }

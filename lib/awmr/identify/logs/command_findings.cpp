@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
@@ -385,7 +386,7 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
   }
   for (const auto& more :
        {compass_findings(fit, file), actuator_findings(fit, file), force_findings(fit, file)}) {
-    findings.insert(findings.end(), more.begin(), more.end());
+    append(findings, more);
   }
   if (!withdrawn) return findings;
   for (Finding& finding : findings) {

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/option_text.h"
 #include "awmr/identify/uncertainty/akaike.h"
 
@@ -233,7 +234,7 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
   if (!has_right_terms(best.fit)) {
     std::erase_if(options.terms,
                   [](const FreeTerm& term) { return !term.quantity.is_stribeck_or_slope(); });
-    options.terms.insert(options.terms.end(), power_law.terms.begin(), power_law.terms.end());
+    append(options.terms, power_law.terms);
   }
   FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
   if (is_over(power_law)) {

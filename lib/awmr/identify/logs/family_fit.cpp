@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/nearest_curve.h"
 #include "awmr/trials/log_start.h"
@@ -181,8 +182,8 @@ std::string families_in_words(Family surge, Family yaw) {
 void reset_terms(const std::vector<ParameterId>& free, const ParameterValues<double>& power_law,
                  ParameterValues<double>& values) {
   for (const ParameterInfo& parameter : parameter_table()) {
-    const bool is_free = std::ranges::find(free, parameter.id) != free.end();
-    if (parameter.term && !is_free) values[at(parameter.id)] = power_law[at(parameter.id)];
+    if (!parameter.term || contains(free, parameter.id)) continue;
+    values[at(parameter.id)] = power_law[at(parameter.id)];
   }
 }
 
@@ -205,7 +206,7 @@ FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
                    const std::vector<FreeTerm>& more) {
   if (!inner.fit.usable) return fit_family(logs, power_law, surge, yaw);
   LogFitOptions at_optimum = without_terms(power_law, inner, surge, yaw);
-  at_optimum.terms.insert(at_optimum.terms.end(), more.begin(), more.end());
+  append(at_optimum.terms, more);
   LogFitOptions options = near_options(logs, at_optimum, inner, surge, yaw);
   reset_undetermined_sway(inner.fit, power_law.initial_guess[at(ParameterId::kSwayAlpha)],
                           options.initial_guess);
@@ -218,7 +219,7 @@ FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOpti
                            const std::vector<FreeTerm>& more) {
   LogFitOptions options =
       near_options(logs, without_terms(power_law, inner, surge, yaw), inner, surge, yaw);
-  options.terms.insert(options.terms.end(), more.begin(), more.end());
+  append(options.terms, more);
   const LogFit fit = fit_roughly(logs, options);
   return {surge, yaw, std::move(options), fit};
 }

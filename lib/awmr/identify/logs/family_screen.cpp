@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/parallel.h"
 #include "awmr/identify/logs/back_emf.h"
 
@@ -69,8 +70,7 @@ std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
   }
   for (const FreeTerm& term : late_terms(fit)) neighbours.push_back({families, {term}});
   for (const FreeTerm& term : ramp_terms(fit)) neighbours.push_back({families, {term}});
-  if (std::ranges::find(fit.options.candidate_terms, ParameterId::kBackEmf) !=
-      fit.options.candidate_terms.end()) {
+  if (contains(fit.options.candidate_terms, ParameterId::kBackEmf)) {
     neighbours.push_back({.families = families, .has_back_emf = true});
   }
   return neighbours;
@@ -131,7 +131,7 @@ FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power
   std::erase_if(options.terms, [&](const FreeTerm& term) {
     return !term.quantity.is_ramp() || is_requested(term);
   });
-  options.terms.insert(options.terms.end(), power_law.terms.begin(), power_law.terms.end());
+  append(options.terms, power_law.terms);
   return fit_with(logs, std::move(options), rough.surge, rough.yaw);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/index.h"
 #include "awmr/core/units.h"
 #include "awmr/identify/logs/log_report.h"
@@ -167,7 +168,7 @@ std::vector<Finding> force_findings(const LogFit& fit, const std::string& file) 
   std::vector<Finding> findings = stribeck_findings(fit, file);
   for (auto* const more : {&slope_findings, &side_pull_findings, &axle_offset_findings,
                            &turn_drag_findings, &backward_drag_findings, &force_excess_findings}) {
-    for (Finding& finding : more(fit, file)) findings.push_back(std::move(finding));
+    append(findings, more(fit, file));
   }
   return findings;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/identify/options.h"
 #include "awmr/model/log_term_names.h"
 
@@ -274,7 +275,7 @@ std::vector<std::string> automatic_terms() {
   }
   const std::vector<std::string> requestable = requestable_terms();
   for (const std::string_view name : kExtraForceNames) {
-    if (std::ranges::find(requestable, name) == requestable.end()) names.emplace_back(name);
+    if (!contains(requestable, name)) names.emplace_back(name);
   }
   return names;
 }
@@ -282,9 +283,7 @@ std::vector<std::string> automatic_terms() {
 std::vector<FreeTerm> requested_terms(std::span<const std::string> names) {
   std::vector<FreeTerm> terms;
   for (const FreeQuantity& term : all_terms()) {
-    if (std::ranges::find(names, term.name()) != names.end()) {
-      terms.push_back({term, begin_of(term)});
-    }
+    if (contains(names, term.name())) terms.push_back({term, begin_of(term)});
   }
   return terms;
 }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "awmr/core/containers.h"
 #include "awmr/identify/logs/channel_noise.h"
 #include "awmr/identify/logs/quantities.h"
 #include "awmr/identify/logs/windows.h"
@@ -53,7 +54,7 @@ struct LogFitOptions {
   /// varies them. Empty if all initial guesses come from other trials; one search then suffices.
   std::vector<ParameterId> guessed;
   std::vector<ParameterId> free;
-  bool frees(ParameterId id) const { return std::ranges::find(free, id) != free.end(); }
+  bool frees(ParameterId id) const { return contains(free, id); }
   /// Terms of resistance families, and back-EMF, that are fixed at 0 in this fit. A score test
   /// predicts how much each of them would improve the fit.
   std::vector<ParameterId> candidate_terms;

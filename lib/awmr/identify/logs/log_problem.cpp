@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/parallel.h"
 
 namespace awmr {
@@ -110,9 +111,7 @@ double change_cost_of(const std::vector<WindowErrors>& errors) {
 
 std::vector<double> change_times_of(const std::vector<WindowErrors>& errors) {
   std::vector<double> times;
-  for (const WindowErrors& window : errors) {
-    times.insert(times.end(), window.change_times.begin(), window.change_times.end());
-  }
+  for (const WindowErrors& window : errors) append(times, window.change_times);
   return times;
 }
 

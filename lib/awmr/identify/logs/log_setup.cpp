@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/back_emf.h"
 #include "awmr/identify/logs/further_terms.h"
@@ -15,10 +16,6 @@
 
 namespace awmr {
 namespace {
-
-bool contains(const std::vector<ParameterId>& ids, ParameterId id) {
-  return std::find(ids.begin(), ids.end(), id) != ids.end();
-}
 
 bool any_has(const std::vector<DrivingLog>& logs, std::initializer_list<LogChannel> channels) {
   return std::ranges::any_of(logs, [&](const DrivingLog& log) {
@@ -86,8 +83,7 @@ bool turns(const std::vector<DrivingLog>& logs) {
 std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
                                         std::vector<LogChannel> requested) {
   const auto add = [&](LogChannel channel, bool is_biased) {
-    const bool known = std::ranges::find(requested, channel) != requested.end();
-    if (is_biased && !known) requested.push_back(channel);
+    if (is_biased && !contains(requested, channel)) requested.push_back(channel);
   };
   add(LogChannel::kYawRate, std::ranges::any_of(logs, [](const DrivingLog& log) {
         return gyro_bias_radps(log).has_value();
@@ -116,7 +112,7 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
   // fit therefore estimates the delay of the commands.
   const bool is_interpolated = std::ranges::any_of(logs, &DrivingLog::has_interpolated_commands);
   fit.terms = requested_terms(options.terms);
-  const bool has_delay = std::ranges::find(options.terms, kInputDelayName) != options.terms.end();
+  const bool has_delay = contains(options.terms, kInputDelayName);
   if (is_interpolated && !has_delay)
     fit.terms.push_back({free_term(FreeQuantity::Kind::kDelay), 0.0});
   fit.candidate_terms = {ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
@@ -26,11 +27,6 @@
 
 namespace awmr {
 namespace {
-
-template <class T>
-void append(std::vector<T>& to, const std::vector<T>& more) {
-  to.insert(to.end(), more.begin(), more.end());
-}
 
 /// Selects the model of the logs: resistance families of surge and yaw, and back-EMF if it is
 /// significant. Decides between wheel slip and late commands (decide_slip()), and whether the
@@ -143,7 +139,7 @@ std::vector<Finding> refused_terms(const LogFit& fit, const std::vector<std::str
     found.push_back(q.name());
     if (fit.refusal_reason[i].empty() || q.kind == FreeQuantity::Kind::kParameter || q.is_form())
       continue;
-    const bool is_requested = std::ranges::find(requested, q.name()) != requested.end();
+    const bool is_requested = contains(requested, q.name());
     findings.push_back(
         {file, 0, is_requested ? Severity::kError : Severity::kNote, "not-identifiable",
          fmt::format("{} {}: {}", q.name(),
@@ -151,7 +147,7 @@ std::vector<Finding> refused_terms(const LogFit& fit, const std::vector<std::str
                      fit.refusal_reason[i])});
   }
   for (const std::string& name : requested) {
-    if (std::ranges::find(found, name) != found.end()) continue;
+    if (contains(found, name)) continue;
     findings.push_back({file, 0, Severity::kError, "not-identifiable",
                         fmt::format("{} cannot be identified: the fit describes these logs better "
                                     "by other terms, which replace it (/estimates of model.json "
@@ -207,7 +203,7 @@ void doubt_force_terms(std::vector<Finding>& findings) {
   constexpr std::string_view kOfForces[] = {"force-saturation", "side-pull",   "turn-drag",
                                             "backward-drag",    "brake-force", "reverse-force"};
   for (Finding& finding : findings) {
-    if (std::ranges::find(kOfForces, finding.code) == std::end(kOfForces)) continue;
+    if (!contains(kOfForces, finding.code)) continue;
     finding.message +=
         ". But the change within the log (changed-in-log) explains the log without this effect";
   }

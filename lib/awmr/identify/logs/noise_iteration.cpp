@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
 #include "awmr/identify/tables/robust.h"
@@ -30,9 +31,7 @@ ErrorsByChannel by_channel(const std::vector<FitWindow>& windows,
 /// Clips the errors of a channel at three standard deviations, which are estimated by the median.
 void clip(std::vector<ErrorSeries>& channel) {
   std::vector<double> all;
-  for (const ErrorSeries& part : channel) {
-    all.insert(all.end(), part.error.begin(), part.error.end());
-  }
+  for (const ErrorSeries& part : channel) append(all, part.error);
   const Eigen::Map<const Eigen::VectorXd> errors(all.data(), rows_of(all));
   const double limit = 3.0 * median_scale(errors);
   for (ErrorSeries& part : channel) {

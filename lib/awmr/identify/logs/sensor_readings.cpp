@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/linear_replay.h"
 #include "awmr/trials/replay.h"
@@ -11,7 +12,7 @@ namespace awmr {
 
 void ReadingSeries::add(double value, const std::vector<double>& row) {
   values_.push_back(value);
-  rows_.insert(rows_.end(), row.begin(), row.end());
+  append(rows_, row);
 }
 
 double ReadingSeries::read(std::size_t i, const std::optional<Smoothing>& smoothing,

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/identify/tables/gross_outlier.h"
@@ -32,10 +32,6 @@ struct Choice {
 
 Finding about(const Subject& subject, Severity severity, const char* code, std::string message) {
   return {subject.file, 0, severity, code, std::move(message)};
-}
-
-void append(std::vector<Finding>&& more, std::vector<Finding>& findings) {
-  std::move(more.begin(), more.end(), std::back_inserter(findings));
 }
 
 Choice choose_log_linear(const Subject& subject, const SubjectOptions& options,
@@ -144,12 +140,12 @@ void add_diagnostics(const Subject& subject, std::size_t report, SubjectFit& res
   EstimatorReport& chosen = result.reports[report];
   if (fit.degrees_of_freedom >= 1) {
     chosen.diagnostics = residual_tests(subject, fit);
-    append(outlier_findings(subject, result.problem, fit), result.findings);
+    append(result.findings, outlier_findings(subject, result.problem, fit));
   }
   if (fit.degrees_of_freedom >= 2) {
     Influence influence = leave_one_out(subject, result.problem, result.log_linear, fit);
     chosen.leave_one_out = std::move(influence.without);
-    append(std::move(influence.findings), result.findings);
+    append(result.findings, influence.findings);
     if (rows_of(subject.points) > kExactRows) {
       chosen.stop_reason += chosen.leave_one_out.empty()
                                 ? "; without leave-one-out fits, because of the robust loss and "
@@ -183,11 +179,11 @@ std::optional<Finding> obstacle(const Subject& subject, const SubjectOptions& op
 void take(const Subject& subject, Choice choice, SubjectFit& result) {
   result.method = std::move(choice.method);
   if (!choice.fit) result.refusal_reason = choice.findings.back().message;
-  append(std::move(choice.findings), result.findings);
+  append(result.findings, choice.findings);
   if (!choice.fit) return;
   result.chosen = std::move(choice.fit);
   result.problem = std::move(choice.problem);
-  append(bound_findings(subject, *result.chosen, result.problem.family), result.findings);
+  append(result.findings, bound_findings(subject, *result.chosen, result.problem.family));
 }
 
 /// Removes the gross outliers from the subject. Returns a finding for each.
@@ -264,7 +260,7 @@ SubjectFit fit_rows(const Subject& subject, const SubjectOptions& options) {
   if (options.loss == Loss::kSquared) {
     auto findings = power_law_findings(subject, wanted, candidates, result.problem.family);
     result.is_inadequate = !findings.empty() && result.problem.family == Family::kPower;
-    append(std::move(findings), result.findings);
+    append(result.findings, findings);
     result.undecided = undecided_fits(candidates, wanted, result.problem.family);
   }
   return result;
@@ -276,7 +272,7 @@ SubjectFit fit_subject(Subject subject, const SubjectOptions& options) {
   if (!has_two_forces(subject.points)) return {};
   std::vector<Finding> aside = set_outliers_aside(subject, options);
   SubjectFit result = fit_rows(subject, options);
-  append(std::move(aside), result.findings);
+  append(result.findings, aside);
   return result;
 }
 
