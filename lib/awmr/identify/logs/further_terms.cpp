@@ -30,9 +30,31 @@ double largest_command(const LogProblem& problem) {
   return largest;
 }
 
+bool has_turns(const LogProblem& problem) {
+  return any_log(problem, has_steering_changes) || any_log(problem, has_force_difference);
+}
+
+/// True if a channel measures how the vehicle turns.
+bool measures_turns(const LogProblem& problem) {
+  const NoiseLevels& measured = problem.model.noise;
+  return measured.contains(LogChannel::kYawRate) || measured.contains(LogChannel::kHeading) ||
+         measured.contains(LogChannel::kX);
+}
+
+FreeQuantity term_of(Kind kind) { return free_term(kind); }
+FreeQuantity term_of(ExtraForce force) { return extra_force(force); }
+
+/// Adds the term `what` (a Kind or an ExtraForce) if the fit does not contain it yet and the logs
+/// can show it.
+template <class What>
+void add_term(const LogProblem& problem, What what, bool is_shown,
+              std::vector<FreeQuantity>& found) {
+  if (is_shown && !has(problem.model.quantities, what)) found.push_back(term_of(what));
+}
+
 void add_times(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
-  if (!has(quantities, Kind::kDelay)) found.push_back(free_term(Kind::kDelay));
+  add_term(problem, Kind::kDelay, true, found);
   for (const auto& [measured, noise] : problem.model.noise) {
     const LogChannel channel = measured == LogChannel::kY ? LogChannel::kX : measured;
     if (has_kind(quantities, Kind::kSensorDelay, channel) ||
@@ -75,8 +97,7 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   for (const auto& [force, coulomb] :
        {std::pair(ExtraForce::kSurgeStribeck, ParameterId::kSurgeCoulomb),
         std::pair(ExtraForce::kYawStribeck, ParameterId::kYawCoulomb)}) {
-    if (place_of(quantities, coulomb) && !has(quantities, force))
-      found.push_back(extra_force(force));
+    add_term(problem, force, has(quantities, coulomb), found);
   }
   const bool has_heading = problem.model.noise.contains(LogChannel::kHeading) ||
                            problem.model.noise.contains(LogChannel::kX);
@@ -84,18 +105,9 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
     found.push_back(extra_force(ExtraForce::kSlopeX));
     found.push_back(extra_force(ExtraForce::kSlopeY));
   }
-  const bool shows_yaw = has_heading || problem.model.noise.contains(LogChannel::kYawRate);
-  if (shows_yaw && !has(quantities, ExtraForce::kSidePull)) {
-    found.push_back(extra_force(ExtraForce::kSidePull));
-  }
-  const bool turns =
-      any_log(problem, has_steering_changes) || any_log(problem, has_force_difference);
-  if (turns && !has(quantities, ExtraForce::kTurnDrag)) {
-    found.push_back(extra_force(ExtraForce::kTurnDrag));
-  }
-  if (any_log(problem, has_force_difference) && !has(quantities, ExtraForce::kAxleOffset)) {
-    found.push_back(extra_force(ExtraForce::kAxleOffset));
-  }
+  add_term(problem, ExtraForce::kSidePull, measures_turns(problem), found);
+  add_term(problem, ExtraForce::kTurnDrag, has_turns(problem), found);
+  add_term(problem, ExtraForce::kAxleOffset, any_log(problem, has_force_difference), found);
   if (!any_log(problem, has_both_directions)) return;
   // A fit contains either wheel slip or an excess of wheel forces, because the slip of wheel_slip.h
   // does not include this excess.
@@ -103,9 +115,7 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
     found.push_back(extra_force(ExtraForce::kBrakeForce));
     found.push_back(extra_force(ExtraForce::kReverseForce));
   }
-  if (!has(quantities, ExtraForce::kBackwardDrag)) {
-    found.push_back(extra_force(ExtraForce::kBackwardDrag));
-  }
+  add_term(problem, ExtraForce::kBackwardDrag, true, found);
 }
 
 void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
@@ -126,30 +136,16 @@ void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
 void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   if (has_force_excess(quantities)) return;
-  const auto other = std::ranges::find(quantities, Kind::kWheelSlip, &FreeQuantity::kind);
+  const auto other = place_of(quantities, Kind::kWheelSlip);
   for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
     if (!problem.model.noise.contains(channel) || has_kind(quantities, Kind::kWheelSlip, channel))
       continue;
     if (channel == LogChannel::kYawRate && !any_log(problem, has_force_difference)) continue;
     for (const bool is_ratio : {false, true}) {
-      if (other != quantities.end() && other->is_ratio != is_ratio) continue;
+      if (other && quantities[*other].is_ratio != is_ratio) continue;
       found.push_back(wheel_slip_of(channel, is_ratio));
     }
   }
-}
-
-/// Adds the distance of the speed sensor from the centre line, if the logs have turns and a channel
-/// that measures them.
-void add_speed_offset(const LogProblem& problem, std::vector<FreeQuantity>& found) {
-  const NoiseLevels& measured = problem.model.noise;
-  const bool shows_yaw = measured.contains(LogChannel::kYawRate) ||
-                         measured.contains(LogChannel::kHeading) ||
-                         measured.contains(LogChannel::kX);
-  const bool turns =
-      any_log(problem, has_steering_changes) || any_log(problem, has_force_difference);
-  if (!measured.contains(LogChannel::kSpeed) || !shows_yaw || !turns) return;
-  if (has(problem.model.quantities, Kind::kSpeedOffset)) return;
-  found.push_back(free_term(Kind::kSpeedOffset));
 }
 
 void add_steering(const LogProblem& problem, std::vector<FreeQuantity>& found) {
@@ -159,15 +155,11 @@ void add_steering(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   };
   for (const Kind kind : {Kind::kSteeringTrim, Kind::kSteeringDeadBand, Kind::kSteeringAsymmetry,
                           Kind::kSteeringCurve}) {
-    const bool is_of_command = kind != Kind::kSteeringTrim;
-    if (has(problem.model.quantities, kind)) continue;
-    if (!is_of_command || any_log(problem, has_command)) found.push_back(free_term(kind));
+    add_term(problem, kind, kind == Kind::kSteeringTrim || any_log(problem, has_command), found);
   }
   const bool leaves_scale_open = has(problem.model.quantities, Kind::kSteeringAsymmetry) ||
                                  has(problem.model.quantities, Kind::kSteeringCurve);
-  if (leaves_scale_open && !has(problem.model.quantities, Kind::kSteeringScale)) {
-    found.push_back(free_term(Kind::kSteeringScale));
-  }
+  add_term(problem, Kind::kSteeringScale, leaves_scale_open, found);
 }
 
 /// Initial guess of a term. A term that cannot be negative begins above 0, so that the search can
@@ -227,14 +219,10 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   add_times(problem, found);
   // If the fit had no delay of the steering, the free time constant of the servo would absorb the
   // servo's dead time.
-  if (place_of(quantities, ParameterId::kSteeringTimeConstant) &&
-      !has(quantities, Kind::kSteeringDelay)) {
-    found.push_back(free_term(Kind::kSteeringDelay));
-  }
+  add_term(problem, Kind::kSteeringDelay, has(quantities, ParameterId::kSteeringTimeConstant),
+           found);
   add_steering(problem, found);
-  if (!has(quantities, Kind::kForceImbalance) && any_log(problem, has_force_difference)) {
-    found.push_back(free_term(Kind::kForceImbalance));
-  }
+  add_term(problem, Kind::kForceImbalance, any_log(problem, has_force_difference), found);
   const double full_command = largest_command(problem);
   if (full_command > 0.0) add_ramps(quantities, found);
   // A fit contains either an exponent or a saturation of the forces. Both together could fit every
@@ -247,14 +235,15 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   add_forces(problem, found);
   add_scales(problem, found);
   add_slip(problem, found);
-  if (problem.model.noise.contains(LogChannel::kSway)) {
-    if (!has(quantities, Kind::kSwayOffset)) found.push_back(free_term(Kind::kSwayOffset));
-    if (!has(quantities, Kind::kSwayAngle)) found.push_back(free_term(Kind::kSwayAngle));
+  const NoiseLevels& measured = problem.model.noise;
+  for (const Kind kind : {Kind::kSwayOffset, Kind::kSwayAngle}) {
+    add_term(problem, kind, measured.contains(LogChannel::kSway), found);
   }
-  add_speed_offset(problem, found);
+  add_term(problem, Kind::kSpeedOffset,
+           measured.contains(LogChannel::kSpeed) && measures_turns(problem) && has_turns(problem),
+           found);
   for (const Kind kind : {Kind::kCompassSin, Kind::kCompassCos}) {
-    const bool is_measured = problem.model.noise.contains(LogChannel::kHeading);
-    if (is_measured && !has(quantities, kind)) found.push_back(free_term(kind));
+    add_term(problem, kind, measured.contains(LogChannel::kHeading), found);
   }
   return found;
 }
