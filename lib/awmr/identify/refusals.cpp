@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <string_view>
 
 #include "awmr/identify/assumed_sway.h"
+#include "awmr/identify/logs/log_setup.h"
 
 namespace awmr {
 namespace {
@@ -59,22 +59,16 @@ std::string table_reason(ParameterId id, const TrialData& data, const Reasons& r
   }
 }
 
-bool is_logged(const TrialData& data, std::initializer_list<LogChannel> channels) {
-  return std::ranges::any_of(data.logs, [&](const DrivingLog& log) {
-    return std::ranges::any_of(channels, [&](LogChannel c) { return log[c].has_value(); });
-  });
-}
-
 /// The trial or channel that would identify the parameter.
 std::string_view remedy_of(ParameterId id, const TrialData& data, const Vehicle& vehicle) {
   const bool is_turning = is_yaw_law(id) || id == ParameterId::kInertiaNorm;
   const bool is_surge = is_surge_law(id) || id == ParameterId::kMassNorm;
   using enum LogChannel;
-  if (!data.logs.empty() && is_surge && !is_logged(data, {kSpeed, kX})) {
+  if (!data.logs.empty() && is_surge && !is_logged(data.logs, {kSpeed, kX})) {
     return "logs with speed_mps, or with both x_m and y_m, which these logs lack (or map columns "
            "to these names)";
   }
-  if (!data.logs.empty() && is_turning && !is_logged(data, {kYawRate, kHeading, kX})) {
+  if (!data.logs.empty() && is_turning && !is_logged(data.logs, {kYawRate, kHeading, kX})) {
     return "logs with yaw_rate_radps or heading_deg, which these logs lack (or map columns to "
            "these names)";
   }

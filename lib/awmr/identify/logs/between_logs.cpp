@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/identifiability.h"
@@ -87,12 +88,12 @@ Heterogeneity heterogeneity(const ByLog& by_log) {
 /// logs.
 void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   const Eigen::Index row = eigen_index(i);
-  const double by = std::max(1.0, std_error / std::sqrt(fit.covariance(row, row)));
+  const double by = std::max(1.0, std_error / fit.error_of(i));
   fit.covariance.row(row) *= by;
   fit.covariance.col(row) *= by;
   const FreeQuantity& q = fit.quantities[i];
   const double x = fit.coordinates[i];
-  const double error = std::sqrt(fit.covariance(row, row));
+  const double error = fit.error_of(i);
   const double half = t_quantile_95(static_cast<double>(logs) - 1.0) * error;
   EstimatorParameter& parameter = fit.report.parameters[i];
   parameter.std_error = q.jacobian(x) * error;
@@ -131,8 +132,7 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
     widen(i, between.std_error, by_log.files.size(), common.fit);
     LogDisagreement one{q.name(), between.p_value, by_log.files, {}, false, false};
     for (const double x : by_log.coordinates) one.values.push_back(q.value(x));
-    const Eigen::Index row = eigen_index(i);
-    one.refuses = std::sqrt(common.fit.covariance(row, row)) > kUnknown * q.large_change;
+    one.refuses = common.fit.error_of(i) > kUnknown * q.large_change;
     if (one.refuses) {
       common.fit.refusal_reason[i] =
           fmt::format("the logs give different values: {:.4g}", fmt::join(one.values, ", "));
@@ -195,7 +195,7 @@ bool invalidates_all(std::string_view name) {
       kSteeringTrimName,  kSteeringDeadBandName, kSteeringAsymmetryName, kSteeringCurveName,
       kSteeringScaleName, kForceImbalanceName,   kForceSaturationName,   kForceExponentName};
   const auto first = kExtraForceNames.begin() + static_cast<int>(ExtraForce::kSlopeX);
-  return std::ranges::find(kOfCommands, name) != std::end(kOfCommands) ||
+  return contains(kOfCommands, name) ||
          std::find(first, kExtraForceNames.end(), name) != kExtraForceNames.end();
 }
 

@@ -58,12 +58,4 @@ double block_length_s(const NoiseLevels& noise) {
   return std::clamp(5.0 * longest_s, 1.0, kWindow_s);
 }
 
-double akaike(const NoiseLevels& noise, Eigen::Index n) {
-  double aic = 2.0 * static_cast<double>(n);
-  for (const auto& [channel, level] : noise) {
-    aic += level.cost + 2.0 * level.numbers();
-  }
-  return aic;
-}
-
 }  // namespace awmr

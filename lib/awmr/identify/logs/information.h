@@ -35,8 +35,4 @@ Scores scores_of(const std::vector<FitWindow>& windows, const std::vector<Window
 /// the noise, so that blocks are nearly independent, but at least 1 s and at most kWindow_s.
 double block_length_s(const NoiseLevels& noise);
 
-/// AIC of a fit under its own noise model: -2 ln L + 2 (n + number of noise parameters), up to a
-/// constant that depends only on the logs. `n`: number of free quantities.
-double akaike(const NoiseLevels& noise, Eigen::Index n);
-
 }  // namespace awmr

@@ -331,12 +331,7 @@ LogFitOptions with_terms_of(const LogFit& fit, LogFitOptions options) {
 }
 
 ParameterValues<double> fitted_values(const LogFitOptions& options, const LogFit& fit) {
-  ParameterValues<double> values = options.initial_guess;
-  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    const FreeQuantity& q = fit.quantities[i];
-    if (q.kind == Kind::kParameter) values[at(q.id)] = q.value(fit.coordinates[i]);
-  }
-  return values;
+  return parameters_at(options.initial_guess, fit.quantities, fit.coordinates);
 }
 
 }  // namespace awmr

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <initializer_list>
 
 #include "awmr/core/containers.h"
 #include "awmr/core/index.h"
@@ -17,12 +16,6 @@
 namespace awmr {
 namespace {
 
-bool any_has(const std::vector<DrivingLog>& logs, std::initializer_list<LogChannel> channels) {
-  return std::ranges::any_of(logs, [&](const DrivingLog& log) {
-    return std::ranges::any_of(channels, [&](LogChannel c) { return log[c].has_value(); });
-  });
-}
-
 /// Reason why the channels and commands of the logs cannot identify a parameter, known before any
 /// search. Empty if they can. Indirect effects, for example of the yaw rate on the speed, do not
 /// count.
@@ -35,8 +28,8 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
       if (!std::ranges::any_of(logs, has_steering_changes)) {
         return "the steering command never changes";
       }
-      return any_has(logs, {LogChannel::kSteering, LogChannel::kYawRate, LogChannel::kHeading,
-                            LogChannel::kX, LogChannel::kY})
+      return is_logged(logs, {LogChannel::kSteering, LogChannel::kYawRate, LogChannel::kHeading,
+                              LogChannel::kX, LogChannel::kY})
                  ? ""
                  : "no channel shows how the vehicle turns or steers (yaw_rate_radps, "
                    "heading_deg, a position or steering_deg)";
@@ -44,19 +37,19 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
     case ParameterId::kSurgeAlpha:
     case ParameterId::kSurgeBeta:
     case ParameterId::kMassNorm:
-      return any_has(logs, {LogChannel::kSpeed, LogChannel::kX, LogChannel::kY})
+      return is_logged(logs, {LogChannel::kSpeed, LogChannel::kX, LogChannel::kY})
                  ? ""
                  : "no channel shows how fast the vehicle drives (speed_mps or a position)";
     case ParameterId::kYawAlpha:
     case ParameterId::kYawBeta:
     case ParameterId::kInertiaNorm:
-      return any_has(logs,
-                     {LogChannel::kYawRate, LogChannel::kHeading, LogChannel::kX, LogChannel::kY})
+      return is_logged(logs,
+                       {LogChannel::kYawRate, LogChannel::kHeading, LogChannel::kX, LogChannel::kY})
                  ? ""
                  : "no channel shows how the vehicle turns (yaw_rate_radps, heading_deg or a "
                    "position)";
     case ParameterId::kSwayAlpha:
-      return any_has(logs, {LogChannel::kSway, LogChannel::kX, LogChannel::kY})
+      return is_logged(logs, {LogChannel::kSway, LogChannel::kX, LogChannel::kY})
                  ? ""
                  : "no channel shows whether the vehicle slides sideways (sway_mps or a position)";
     case ParameterId::kBackEmf:
@@ -180,7 +173,7 @@ double window_length_s(const std::vector<DrivingLog>& logs, LogFitOptions fit) {
   constexpr double kFar = 1000.0;
   constexpr double kMuchLess = 0.1;
   constexpr double kShort_s = 0.6;
-  if (fit.free.empty() || !any_has(logs, {LogChannel::kX, LogChannel::kY})) return kWindow_s;
+  if (fit.free.empty() || !is_logged(logs, {LogChannel::kX, LogChannel::kY})) return kWindow_s;
   const double error = fit_roughly(logs, fit).relative_error;
   if (!(error > kFar)) return kWindow_s;
   fit.window_s = kShort_s;
@@ -189,6 +182,12 @@ double window_length_s(const std::vector<DrivingLog>& logs, LogFitOptions fit) {
 }
 
 }  // namespace
+
+bool is_logged(const std::vector<DrivingLog>& logs, std::initializer_list<LogChannel> channels) {
+  return std::ranges::any_of(logs, [&](const DrivingLog& log) {
+    return std::ranges::any_of(channels, [&](LogChannel c) { return log[c].has_value(); });
+  });
+}
 
 LogFitOptions log_setup(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                         const IdentifyOptions& options, const std::vector<ParameterId>& requested,

@@ -2,6 +2,7 @@
 /// Private to identify/.
 #pragma once
 
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "awmr/model/model.h"
 
 namespace awmr {
+
+/// True if one of the logs has one of the channels.
+bool is_logged(const std::vector<DrivingLog>& logs, std::initializer_list<LogChannel> channels);
 
 /// Returns the options of a fit with power laws. The parameters in `requested` and those without a
 /// value in `model` are free, with initial guesses from the logs. If the channels and commands of

@@ -49,6 +49,16 @@ std::vector<std::vector<double>> places(const LogProblem& problem, const LogFitO
   return from;
 }
 
+/// One per quantity: its value at the given coordinate.
+std::vector<double> values_at(const std::vector<FreeQuantity>& quantities,
+                              const std::vector<double>& coordinates) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    values.push_back(quantities[i].value(coordinates[i]));
+  }
+  return values;
+}
+
 }  // namespace
 
 bool is_far_worse(const Multistart& search, const BestSoFar& best) {

@@ -261,13 +261,4 @@ ParameterValues<double> parameters_at(ParameterValues<double> held,
   return held;
 }
 
-std::vector<double> values_at(const std::vector<FreeQuantity>& quantities,
-                              const std::vector<double>& coordinates) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < quantities.size(); ++i) {
-    values.push_back(quantities[i].value(coordinates[i]));
-  }
-  return values;
-}
-
 }  // namespace awmr

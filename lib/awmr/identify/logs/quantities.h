@@ -254,8 +254,4 @@ ParameterValues<double> parameters_at(ParameterValues<double> held,
                                       const std::vector<FreeQuantity>& quantities,
                                       const std::vector<double>& coordinates);
 
-/// One per quantity: its value at the given coordinate.
-std::vector<double> values_at(const std::vector<FreeQuantity>& quantities,
-                              const std::vector<double>& coordinates);
-
 }  // namespace awmr

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "awmr/identify/logs/log_report.h"
+#include "awmr/identify/logs/log_setup.h"
 
 namespace awmr {
 namespace {
@@ -80,8 +81,7 @@ Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels,
     return t.quantity.channel == LogChannel::kYawRate &&
            (t.quantity.kind == Kind::kSensorDelay || t.quantity.kind == Kind::kSensorLag);
   };
-  const bool has_yaw_rate = std::ranges::any_of(
-      logs, [](const DrivingLog& log) { return log[LogChannel::kYawRate].has_value(); });
+  const bool has_yaw_rate = is_logged(logs, {LogChannel::kYawRate});
   if (channels.front() == LogChannel::kSpeed && channels.size() == 1 && has_yaw_rate &&
       std::ranges::none_of(terms, is_read_late)) {
     terms.push_back({free_term(Kind::kSensorDelay, LogChannel::kYawRate), kGuess_s});

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "awmr/core/index.h"
 #include "awmr/core/units.h"
-#include "awmr/identify/logs/information.h"
 
 namespace awmr {
 namespace {
@@ -16,14 +16,11 @@ using Kind = FreeQuantity::Kind;
 
 /// Smallest interval, rad, that contains 0 and all steering commands of the window.
 Interval commanded_angles_rad(const FitWindow& window) {
-  Interval angles{0.0, 0.0};
-  const auto& commands = window.rows.log->steering_command_rad;
-  if (!commands) return angles;
-  for (std::size_t row = window.rows.begin; row < window.rows.end; ++row) {
-    angles.lo = std::min(angles.lo, (*commands)[row]);
-    angles.hi = std::max(angles.hi, (*commands)[row]);
-  }
-  return angles;
+  const auto& [log, begin, end] = window.rows;
+  if (!log->steering_command_rad) return {0.0, 0.0};
+  const auto [least, most] =
+      std::ranges::minmax(std::span(*log->steering_command_rad).subspan(begin, end - begin));
+  return {std::min(0.0, least), std::max(0.0, most)};
 }
 
 /// Largest steering rate, rad/s, that the commands demand of the servo: the range of the steering
@@ -66,7 +63,11 @@ NoiseIteration with_largest_steering(const NoiseIteration& settled) {
 }  // namespace
 
 double akaike_of(const NoiseIteration& fit) {
-  return akaike(fit.problem.model.noise, rows_of(fit.problem.model.quantities)) + fit.change_cost;
+  double aic = 2.0 * static_cast<double>(fit.problem.model.quantities.size());
+  for (const auto& [channel, level] : fit.problem.model.noise) {
+    aic += level.cost + 2.0 * level.numbers();
+  }
+  return aic + fit.change_cost;
 }
 
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more) {

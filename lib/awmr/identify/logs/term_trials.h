@@ -12,7 +12,8 @@
 
 namespace awmr {
 
-/// AIC of a fit, computed with its own noise levels.
+/// AIC of a fit under its own noise model: -2 ln L + 2 (n + number of noise parameters), up to a
+/// constant that depends only on the logs. n: number of free quantities.
 double akaike_of(const NoiseIteration& fit);
 
 /// Adds the terms `more` to the estimated quantities of the converged fit `settled`, and makes a

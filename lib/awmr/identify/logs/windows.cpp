@@ -48,6 +48,20 @@ std::size_t first_fitted_row(const DrivingLog& log) {
   return at(std::ranges::lower_bound(t_s, t_s.front() + kForgotten_s) - t_s.begin());
 }
 
+/// Adds a window with these rows, unless nothing is measured in them.
+void add_window(const LogWindow& rows, std::shared_ptr<const LogSignals> signals,
+                double row_spacing_s, std::vector<FitWindow>& windows) {
+  auto samples = std::make_shared<const std::vector<Sample>>(samples_of(rows));
+  if (samples->empty()) return;
+  windows.push_back({rows,
+                     std::move(signals),
+                     row_spacing_s,
+                     std::move(samples),
+                     measured_initial_state(rows),
+                     {},
+                     uncertain_changes(rows)});
+}
+
 }  // namespace
 
 std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs, double longest_s,
@@ -60,15 +74,7 @@ std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs, double l
     for (const LogWindow& all : windows_of(log, longest_s)) {
       LogWindow rows = only_s ? within(all, *only_s) : all;
       rows.begin = std::clamp(first, rows.begin, rows.end);
-      auto samples = std::make_shared<const std::vector<Sample>>(samples_of(rows));
-      if (samples->empty()) continue;
-      windows.push_back({rows,
-                         signals,
-                         row_spacing_s,
-                         std::move(samples),
-                         measured_initial_state(rows),
-                         {},
-                         uncertain_changes(rows)});
+      add_window(rows, signals, row_spacing_s, windows);
     }
   }
   return windows;
@@ -84,15 +90,7 @@ std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s) {
   for (std::size_t part = 0; part < count; ++part) {
     const LogWindow rows{log, begin + (end - begin) * part / count,
                          begin + (end - begin) * (part + 1) / count};
-    auto samples = std::make_shared<const std::vector<Sample>>(samples_of(rows));
-    if (samples->empty()) continue;
-    parts.push_back({rows,
-                     window.signals,
-                     window.row_spacing_s,
-                     std::move(samples),
-                     measured_initial_state(rows),
-                     {},
-                     uncertain_changes(rows)});
+    add_window(rows, window.signals, window.row_spacing_s, parts);
   }
   return parts;
 }
