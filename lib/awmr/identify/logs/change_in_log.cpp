@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "awmr/core/distributions.h"
@@ -56,27 +55,12 @@ PartFits fit_parts(const std::vector<DrivingLog>& log, const LogFitOptions& opti
           fit_with(log, std::move(after), chosen.surge, chosen.yaw)};
 }
 
-/// Size of the errors of both parts: sum over the channels of n ln(sum e^2/n), with the number n of
-/// errors e, divided by the number of all errors. Infinite if a part could not be fitted.
-double size_of_errors(const PartFits& parts) {
+/// Size of the errors of both parts (size_of_errors()), divided by their number. Infinite if a part
+/// could not be fitted.
+double error_size(const PartFits& parts) {
   if (!parts.usable()) return std::numeric_limits<double>::infinity();
-  std::map<LogChannel, std::pair<double, double>> sums;  // squares and number of errors
-  for (const LogFit* fit : {&parts.before.fit, &parts.after.fit}) {
-    for (const auto& [channel, errors] : fit->errors) {
-      for (const ErrorSeries& part : errors) {
-        for (const double e : part.error) sums[channel].first += e * e;
-        sums[channel].second += static_cast<double>(part.error.size());
-      }
-    }
-  }
-  double size = 0.0;
-  double all = 0.0;
-  for (const auto& [channel, sum] : sums) {
-    const auto [squares, n] = sum;
-    size += n * std::log(std::max(squares / n, kMinimumStd * kMinimumStd));
-    all += n;
-  }
-  return size / all;
+  const auto [size, count] = size_of_errors({&parts.before.fit, &parts.after.fit});
+  return size / count;
 }
 
 /// Searches the time at which the errors of both parts are smallest: on a grid, then halfway to its
@@ -92,7 +76,7 @@ std::optional<PartFits> fit_at_likeliest_time(const std::vector<DrivingLog>& log
   double least = std::numeric_limits<double>::infinity();
   const auto consider = [&](double t_s) {
     PartFits parts = fit_parts(log, options, chosen, t_s);
-    const double size = size_of_errors(parts);
+    const double size = error_size(parts);
     if (size < least) {
       least = size;
       best = std::move(parts);

@@ -40,7 +40,7 @@ struct InnovationSums {
 
 /// `most`: values of nu_k^2/S_k above `most` count as `most`.
 InnovationSums innovation_sums(std::span<const ErrorSeries> series, const ChannelNoise& noise,
-                               double most = std::numeric_limits<double>::infinity()) {
+                               double most = kNoLimit) {
   InnovationSums sums;
   double product = 1.0;  // product of many S_k: one logarithm of the product replaces many
   for (const ErrorSeries& part : series) {
@@ -308,13 +308,7 @@ NoiseLevels sensor_noise(const std::vector<FitWindow>& windows) {
   return levels;
 }
 
-double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise) {
-  const InnovationSums sums = innovation_sums(series, noise);
-  return sums.squares + sums.log_variances;
-}
-
-double clipped_cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise,
-                       double most) {
+double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise, double most) {
   const InnovationSums sums = innovation_sums(series, noise, most);
   return sums.squares + sums.log_variances;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <span>
 #include <vector>
@@ -87,12 +88,14 @@ struct ErrorSeries {
 /// The errors of a fit by channel, one series per window.
 using ErrorsByChannel = std::map<LogChannel, std::vector<ErrorSeries>>;
 
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
 /// -2 ln L of errors under a noise model, up to a constant: sum ln S_k + nu_k^2/S_k. The innovation
 /// nu_k is the part of error k that the errors before it do not predict, S_k its variance
 /// (whitener.h).
-double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
-/// The same, with no nu_k^2/S_k above `most`, so that single errors do not dominate the cost.
-double clipped_cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise, double most);
+/// `most`: limit of each nu_k^2/S_k, so that single errors do not dominate the result.
+double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise,
+               double most = kNoLimit);
 
 /// Returns the most likely noise model of these errors (maximum likelihood). Begins with white
 /// noise and makes three steps. The result of a step is kept only if it lowers -2 ln L by more than

@@ -2,6 +2,7 @@
 /// law, for example a power law. And the comparison of two fits by AIC. Private to identify/.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,21 @@ struct FamilyFit {
   LogFit fit;
 };
 
+/// Sum of n ln(sum e^2/n) over all channels, with the n errors e of a channel in all of these fits,
+/// and the number of errors of all channels.
+struct ErrorSize {
+  double size = 0.0;
+  double count = 0.0;
+};
+ErrorSize size_of_errors(std::initializer_list<const LogFit*> fits);
+
 /// AIC of a fit's errors under the noise model `noise`; smaller is better. With the innovations
 /// nu_k of all channels, their variances S_k (whitener.h) and n free quantities,
 ///
 ///     AIC = sum (ln S_k + nu_k^2/S_k) + 2 n
-double aic_under(const NoiseLevels& noise, const LogFit& fit);
+///
+/// `most`: limit of each nu_k^2/S_k.
+double aic_under(const NoiseLevels& noise, const LogFit& fit, double most = kNoLimit);
 
 /// AIC of `b` minus AIC of `a`, under the noise model of the fit with the smaller errors: > 0 if
 /// `a` is better. Infinity if only `a` is usable, -infinity if only `b` is, 0 if neither is.
@@ -29,11 +40,11 @@ double aic_under(const NoiseLevels& noise, const LogFit& fit);
 /// Reason for one noise model: each fit estimates its own noise, and the drift in this noise
 /// absorbs the error of the fit's own model. If each fit used its own noise model, a fit with a
 /// smooth error of 0.2 m/s could be likelier than a fit with an error of 3 mm/s.
-double aic_lead(const LogFit& a, const LogFit& b);
-
-/// aic_lead() with each innovation counted as at most three standard deviations, so that a few rows
-/// do not decide.
-double aic_lead_of_most_rows(const LogFit& a, const LogFit& b);
+///
+/// `most`: as in aic_under(). With kMostRows, each innovation counts as at most three standard
+/// deviations, so that a few rows do not decide.
+double aic_lead(const LogFit& a, const LogFit& b, double most = kNoLimit);
+inline constexpr double kMostRows = 9.0;
 
 /// True if the limit of work (Effort) or of time is reached, so that no further fit may begin.
 bool is_over(const LogFitOptions& options);
