@@ -47,11 +47,7 @@ struct ChannelNoise {
   }
   /// True if the drift is too large and too slow to come from a sensor filter. Its cause is then a
   /// model error, or a drift of the sensor itself. `longest_s`: correlation time, s, that a filter
-  /// rarely reaches. One of two conditions suffices:
-  ///   - The drift is above 0.5 times the sensor noise, and its correlation time is at least
-  ///     `longest_s`.
-  ///   - The drift is above 1.5 times the sensor noise, and its correlation time is at least half
-  ///     of `longest_s`.
+  /// rarely reaches, or half of it if the drift is large.
   bool of_the_model(double longest_s = 0.5) const {
     return (drift_std > 0.5 * sensor_std && correlation_s >= longest_s) ||
            (drift_std > 1.5 * sensor_std && correlation_s >= 0.5 * longest_s);

@@ -25,16 +25,8 @@ std::vector<CandidateTerm> candidate_terms(const LogProblem& problem, const Sear
 /// would increase the mass. Score tests (score_test.h) select the candidates. A short fit with each
 /// candidate (one round of settle_noise()) ranks them. The best one is kept if its converged fit
 /// lowers AIC by more than 10, the usual threshold of a clear difference.
-///   - The delay of the commands is negative if their time stamps are late.
-///   - A motor lag is tried in place of the command delay and in addition to it, unless the vehicle
-///     file gives the lag. A low-pass filter is tried in place of a delay of the speed, the yaw
-///     rate or the heading.
-///   - If no candidate is kept, a slower servo and then a motor lag are tried (term_trials.h).
-///     After each added term, one motor lag is tried in place of all filters.
-///   - With an error of the steering linkage, the stop may limit the angle or the command
-///     (steering_linkage.h). Both are tried if the logs have commands near the stop.
-///   - Steering trim and force imbalance have nearly the same effect. If the search finds one of
-///     them and the commands allow an estimate of both, both become free.
+/// Terms with a similar effect are tried next to a candidate, for example a motor lag and a filter
+/// next to a delay (delays.cpp, term_trials.h, with_other_stop() in steering_linkage.h).
 ///
 /// The search also ends if `ends` returns true for a fit with an added term.
 NoiseIteration find_delays_and_errors(NoiseIteration settled,

@@ -37,10 +37,9 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
   return most;
 }
 
-/// True if a resistance family with more terms may be better. One of these reasons suffices: the
-/// score test of a term predicts a large decrease of -2 ln L; the errors have a slow drift, which
-/// can hide the effect of a missing term; `fit` did not converge. `of_yaw`: true for terms of yaw,
-/// false for surge.
+/// True if a resistance family with more terms may be better (FamilyContest::only_candidates). A
+/// slow drift can hide the effect of a missing term. `of_yaw`: true for terms of yaw, false for
+/// surge.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // smallest predicted decrease of -2 ln L that is worth a fit
   if (!fit.usable || largest_gain(fit, candidate_terms, of_yaw) > kWorthATry) return true;

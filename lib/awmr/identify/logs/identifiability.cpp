@@ -66,8 +66,8 @@ bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
   return coordinate <= bounds.lo || coordinate >= bounds.hi;
 }
 
-/// Variances of the coordinates by the scatter of the scores s_b of m blocks or logs: the diagonal
-/// of m/(m - 1) C (sum s_b s_b^T) C, with C = `covariance`.
+/// Variances of the coordinates by the scatter of the scores: the diagonal of V (identifiability()),
+/// with C = `covariance`.
 Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
                                      const std::vector<Eigen::VectorXd>& scores) {
   Eigen::VectorXd variances = Eigen::VectorXd::Zero(covariance.rows());
@@ -91,9 +91,7 @@ void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
   }
 }
 
-/// Raises standard errors to those by the scatter of the scores. Scatter of blocks counts if it
-/// exceeds the prediction of the noise model. Scatter of whole logs counts if there are at least
-/// three logs, and if it exceeds the prediction significantly.
+/// Raises standard errors to those by the scatter of the scores, see identifiability().
 void widen(const Scores& scores, Identifiability& found) {
   // Practically infinite: Student's t then equals the normal distribution.
   constexpr double kManyDegrees = 1e6;

@@ -26,9 +26,8 @@ namespace awmr {
 std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
 
 /// Returns one finding `coloured-residuals` for every channel whose whitened residuals are still
-/// correlated in time (Ljung-Box test, p < 0.001). Whitening removes the drift of the noise model.
-/// The finding is a warning if the scatter between parts of the logs raised a standard error by 50
-/// % or more. Otherwise it is a note.
+/// correlated in time (Ljung-Box test). Whitening removes the drift of the noise model. The finding
+/// is a warning if the scatter between parts of the logs raised a standard error much, else a note.
 std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::string& file);
 
 /// Result of check_adequacy().

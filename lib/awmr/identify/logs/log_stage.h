@@ -41,12 +41,8 @@ struct LogStage {
 /// without a value are free, the others fixed. If `overrule` is true, values from the logs replace
 /// those from other trials.
 ///
-/// Findings: `estimates-disagree` (logs against other trials, p < 0.01), `coloured-residuals`,
-/// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `back-emf`, `steering-measured`,
-/// `interpolated-commands`, `interpolated-set-points`, `wheel-slip`, `speed-controlled`,
-/// `logs-disagree`, `not-identifiable`, `not-converged`, `held-out-misses`, `changed-in-log`,
-/// `inertia-mismatch`, `gyro-scale-open`, `families-not-compared` (a limit was reached), and those
-/// of term_findings.h. Errors (input): those of check_replay(), if a time constant is too small.
+/// Adds the findings of all checks and of term_findings.h. Errors (input): those of check_replay(),
+/// if a time constant is too small.
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                                const IdentifyOptions& options,
                                const std::vector<ParameterId>& requested, const Model& model,
