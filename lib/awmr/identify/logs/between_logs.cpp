@@ -31,10 +31,8 @@ struct ByLog {
 
 /// Index of the quantity `name` in the fit. Empty if the fit does not identify this quantity.
 std::optional<std::size_t> place_in(const LogFit& fit, const std::string& name) {
-  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    if (fit.quantities[i].name() == name && fit.refusal_reason[i].empty()) return i;
-  }
-  return std::nullopt;
+  const auto i = place_of(fit.quantities, name);
+  return i && fit.refusal_reason[*i].empty() ? i : std::nullopt;
 }
 
 void add(const std::string& file, double coordinate, double variance, ByLog& by_log) {

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "awmr/core/containers.h"
-#include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/identify/logs/steering_linkage.h"
@@ -114,19 +113,14 @@ std::string sensor_delay_text(const FoundTerm& delay, const LogFit&) {
 }
 
 std::string sensor_lag_text(const FoundTerm& lag, const LogFit& fit) {
-  const auto damping =
-      std::ranges::find(fit.quantities, free_term(Kind::kLagDamping, lag.quantity.channel).name(),
-                        &FreeQuantity::name);
+  const auto damping = fit.value_of(free_term(Kind::kLagDamping, lag.quantity.channel).name());
   return fmt::format(
       "{} was low-pass filtered before it was logged, with a time constant of {:.3f} "
       "+- {:.3f} s{}. The fit estimates this time constant together with the parameters, "
       "which makes their intervals wider: for narrower intervals, log the unfiltered "
       "reading, or use a filter with a shorter time constant",
       info(lag.quantity.channel).name, lag.value, lag.error,
-      damping != fit.quantities.end()
-          ? fmt::format(" (second order, damping {:.2g})",
-                        fit.coordinates[at(damping - fit.quantities.begin())])
-          : "");
+      damping ? fmt::format(" (second order, damping {:.2g})", *damping) : "");
 }
 
 std::string smoothing_text(const FoundTerm& variance_s2, const LogFit&) {

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "awmr/core/containers.h"
-#include "awmr/core/index.h"
 #include "awmr/core/units.h"
 #include "awmr/identify/logs/log_report.h"
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "awmr/core/index.h"
 #include "awmr/identify/logs/windows.h"
 #include "awmr/model/dynamics.h"
 

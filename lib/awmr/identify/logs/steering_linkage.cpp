@@ -48,12 +48,6 @@ std::string_view limited_by_stop(const FamilyFit& fit) {
   return limits_command(fit.fit.quantities) ? "command" : "angle";
 }
 
-/// Coordinate of the quantity with this name. Precondition: the fit has it.
-double coordinate_of(const LogFit& fit, const std::string& name) {
-  const auto found = std::ranges::find(fit.quantities, name, &FreeQuantity::name);
-  return fit.coordinates[at(found - fit.quantities.begin())];
-}
-
 /// Scale s of the steering angles at one standard deviation, see widen_by_steering_scale(). With a
 /// curve, s brings the angle at the stop closer to the command.
 double possible_scale(const LogFit& fit) {
@@ -143,7 +137,8 @@ void widen_by_steering_scale(const std::vector<DrivingLog>& logs, FamilyFit& cho
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const Eigen::Index row = eigen_index(i);
     if (!fit.refusal_reason[i].empty()) continue;
-    change(row) = share * (coordinate_of(other, fit.quantities[i].name()) - fit.coordinates[i]);
+    const std::size_t same = *place_of(other.quantities, fit.quantities[i].name());
+    change(row) = share * (other.coordinates[same] - fit.coordinates[i]);
   }
   widen_by(change, fit);
 }
