@@ -24,28 +24,30 @@ struct TermColumn {
   std::size_t column;
 };
 
-/// One T for each kind of quantity between the logged commands and the wheels.
-template <class T>
-struct ByCommandTerm {
-  static constexpr auto kLast = FreeQuantity::Kind::kSaturationSharpness;
-
-  std::array<T, at(kLast) + 1> of_kind{};  ///< of_kind[0] is not used
+/// One T for each kind of quantity up to `kLast`.
+template <class T, FreeQuantity::Kind kLast>
+struct ByKind {
+  std::array<T, at(kLast) + 1> of_kind{};
 
   T& operator[](FreeQuantity::Kind kind) { return of_kind[at(kind)]; }
   const T& operator[](FreeQuantity::Kind kind) const { return of_kind[at(kind)]; }
 };
 
-/// Delays, time constants and constant errors of the commands that the fit estimates, with the
-/// units and definitions of FreeQuantity::Kind. Columns of the exponent and the sharpness are those
-/// of their logarithms.
-struct CommandTerms : ByCommandTerm<std::optional<TermColumn>> {
-  bool turns_slowly = false;  ///< RampTimes::turns_slowly
-
+/// Terms that the fit estimates, with the units and definitions of FreeQuantity::Kind. The column
+/// of a term whose coordinate is a logarithm is that of the logarithm.
+struct TermColumns : ByKind<std::optional<TermColumn>, FreeQuantity::Kind::kCompassCos> {
   /// Value of a term; `otherwise` if the fit does not estimate it.
   double value(FreeQuantity::Kind kind, double otherwise = 0.0) const {
     const std::optional<TermColumn>& term = (*this)[kind];
     return term ? term->value : otherwise;
   }
+};
+
+/// Last kind of the terms between the logged commands and the wheels; the first is kDelay.
+inline constexpr auto kLastOfCommands = FreeQuantity::Kind::kSaturationSharpness;
+
+struct CommandTerms : TermColumns {
+  bool turns_slowly = false;  ///< RampTimes::turns_slowly
 };
 
 /// Delays, lag and constant errors between the logged commands and the wheels.
@@ -92,7 +94,7 @@ struct DelayedCommand {
   HeldCommand command;
   /// The derivative of the forces with respect to the delay is set only for motors with lag or
   /// ramps. Without, the force jumps; then LinearStepper::change_command() adds the derivative.
-  ByCommandTerm<HeldCommand> by = {};
+  ByKind<HeldCommand, kLastOfCommands> by = {};
   /// Column of the latest change of the forces, if its time is uncertain. Set only for motors with
   /// lag. The derivative of the force with respect to this time is that with respect to the delay,
   /// because the effect of earlier changes is assumed to have decayed.
@@ -102,7 +104,7 @@ struct DelayedCommand {
 /// Calls visit(column, by) for each term. `by`: derivative of the command with respect to it.
 template <class Visit>
 void for_each_column(const CommandTerms& terms, const DelayedCommand& command, Visit visit) {
-  for (std::size_t kind = 0; kind < terms.of_kind.size(); ++kind) {
+  for (std::size_t kind = 0; kind < command.by.of_kind.size(); ++kind) {
     if (terms.of_kind[kind]) visit(terms.of_kind[kind]->column, command.by.of_kind[kind]);
   }
 }

@@ -9,6 +9,11 @@
 #include "awmr/trials/replay.h"
 
 namespace awmr {
+namespace {
+
+using Kind = FreeQuantity::Kind;
+
+}  // namespace
 
 void ReadingSeries::add(double value, const std::vector<double>& row) {
   values_.push_back(value);
@@ -66,7 +71,7 @@ double SensorReadings::reading_of(LogChannel c, const LinearMotion& motion, doub
                             row_.size(), row_.data());
   }
   if (c == LogChannel::kSway) value = sway(motion);
-  if (c == LogChannel::kSpeed && terms_.speed_offset) value += add_speed_offset(motion);
+  if (c == LogChannel::kSpeed) value += add_speed_offset(motion);
   if (c == LogChannel::kHeading) value += add_deviation(value);
   return scaled(c, value);
 }
@@ -83,27 +88,30 @@ double SensorReadings::scaled(LogChannel c, double value) {
 /// Part -y_s r of the reading of a speed sensor that is not on the centre line
 /// (FreeQuantity::Kind::kSpeedOffset). Adds its derivatives to the row.
 double SensorReadings::add_speed_offset(const LinearMotion& motion) {
-  const double y = terms_.speed_offset->value;
+  const auto& offset = terms_.mounting[Kind::kSpeedOffset];
+  if (!offset) return 0.0;
   const double r = motion.state.r_radps;
   if (!row_.empty()) {
     const double* const by_r = motion.row(LogChannel::kYawRate, row_.size());
-    for (std::size_t c = 0; c < row_.size(); ++c) row_[c] -= y * by_r[c];
-    row_[terms_.speed_offset->column] -= r;
+    for (std::size_t c = 0; c < row_.size(); ++c) row_[c] -= offset->value * by_r[c];
+    row_[offset->column] -= r;
   }
-  return -y * r;
+  return -offset->value * r;
 }
 
 /// Deviation B sin psi + C cos psi of a compass (FreeQuantity::Kind::kCompassSin). Adds its
 /// derivatives to the row, the derivatives of psi.
 double SensorReadings::add_deviation(double heading_rad) {
-  if (!terms_.compass_sin && !terms_.compass_cos) return 0.0;
-  const double b = terms_.compass_sin ? terms_.compass_sin->value : 0.0;
-  const double c = terms_.compass_cos ? terms_.compass_cos->value : 0.0;
+  const auto& of_sine = terms_.mounting[Kind::kCompassSin];
+  const auto& of_cosine = terms_.mounting[Kind::kCompassCos];
+  if (!of_sine && !of_cosine) return 0.0;
+  const double b = terms_.mounting.value(Kind::kCompassSin);
+  const double c = terms_.mounting.value(Kind::kCompassCos);
   const double sine = std::sin(heading_rad);
   const double cosine = std::cos(heading_rad);
   for (double& by : row_) by *= 1.0 + b * cosine - c * sine;
-  if (!row_.empty() && terms_.compass_sin) row_[terms_.compass_sin->column] += sine;
-  if (!row_.empty() && terms_.compass_cos) row_[terms_.compass_cos->column] += cosine;
+  if (!row_.empty() && of_sine) row_[of_sine->column] += sine;
+  if (!row_.empty() && of_cosine) row_[of_cosine->column] += cosine;
   return b * sine + c * cosine;
 }
 
@@ -111,21 +119,21 @@ double SensorReadings::add_deviation(double heading_rad) {
 /// (FreeQuantity::Kind::kSwayOffset).
 double SensorReadings::sway(const LinearMotion& motion) {
   const State<double>& s = motion.state;
-  const double x = terms_.sway_offset ? terms_.sway_offset->value : 0.0;
-  const double angle = terms_.sway_angle ? terms_.sway_angle->value : 0.0;
+  const auto& offset = terms_.mounting[Kind::kSwayOffset];
+  const auto& turned = terms_.mounting[Kind::kSwayAngle];
+  const double x = terms_.mounting.value(Kind::kSwayOffset);
+  const double angle = terms_.mounting.value(Kind::kSwayAngle);
   const double along = std::sin(angle);
   const double across = std::cos(angle);
   const std::size_t columns = row_.size();
-  if (columns > 0 && (terms_.sway_offset || terms_.sway_angle)) {
+  if (columns > 0 && (offset || turned)) {
     const double* const by_u = motion.row(LogChannel::kSpeed, columns);
     const double* const by_r = motion.row(LogChannel::kYawRate, columns);
     for (std::size_t c = 0; c < columns; ++c) {
       row_[c] = across * row_[c] - along * by_u[c] + x * by_r[c];
     }
-    if (terms_.sway_offset) row_[terms_.sway_offset->column] += s.r_radps;
-    if (terms_.sway_angle) {
-      row_[terms_.sway_angle->column] -= along * s.v_mps + across * s.u_mps;
-    }
+    if (offset) row_[offset->column] += s.r_radps;
+    if (turned) row_[turned->column] -= along * s.v_mps + across * s.u_mps;
   }
   return across * s.v_mps - along * s.u_mps + x * s.r_radps;
 }

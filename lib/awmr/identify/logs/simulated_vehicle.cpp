@@ -40,7 +40,7 @@ void set_command_term(const FreeQuantity& q, double number, std::size_t i, const
   const DrivingLog& log = *window.rows.log;
   const bool has_command = log.steering_command_rad.has_value();
   if (q.is_beyond_stop && has_command) path.stop_limits_command = true;
-  if (q.kind == Kind::kParameter || q.kind > CommandTerms::kLast) return;
+  if (q.kind == Kind::kParameter || q.kind > kLastOfCommands) return;
   if (q.is_of_linkage() && q.kind != Kind::kSteeringTrim && !has_command) return;
   path.terms[q.kind] = {number, i};
   if (q.kind == Kind::kMotorLag) path.lag.emplace(log, window.rows.begin, window.rows.end, number);
@@ -72,26 +72,11 @@ void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const 
     case Kind::kWheelSlip:
       sensors.slips.push_back({q.channel, {number, i}, q.is_ratio});
       break;
-    case Kind::kSwayOffset:
-      sensors.sway_offset = {number, i};
-      break;
-    case Kind::kSwayAngle:
-      sensors.sway_angle = {number, i};
-      break;
-    case Kind::kSpeedOffset:
-      sensors.speed_offset = {number, i};
-      break;
-    case Kind::kCompassSin:
-      sensors.compass_sin = {number, i};
-      break;
-    case Kind::kCompassCos:
-      sensors.compass_cos = {number, i};
-      break;
     case Kind::kBias:
       sensors.bias[c] = {number, i};
       break;
     default:
-      break;
+      if (q.kind >= Kind::kSwayOffset) sensors.mounting[q.kind] = {number, i};
   }
 }
 

@@ -43,11 +43,7 @@ struct SensorTerms {
   std::array<std::optional<Smoothing>, kChannelCount> smoothing{};
   std::array<std::optional<TermColumn>, kChannelCount> scale{};
   std::vector<WheelSlip> slips;
-  std::optional<TermColumn> sway_offset;
-  std::optional<TermColumn> sway_angle;
-  std::optional<TermColumn> speed_offset;
-  std::optional<TermColumn> compass_sin;
-  std::optional<TermColumn> compass_cos;
+  TermColumns mounting;  ///< kSwayOffset to kCompassCos
 
   bool any_delayed() const;
   bool any_smoothed() const;
