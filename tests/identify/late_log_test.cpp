@@ -366,6 +366,33 @@ TEST_P(LateLogs, FindsTheSpeedOfOneWheel) {
   }
 }
 
+TEST_P(LateLogs, FindsThePlaceOfAnAntenna) {
+  constexpr double kAhead_m = 0.25;
+  constexpr double kLeft_m = -0.12;
+  const Truth& t = kTruths[1];
+  DrivingLog log = precise_drive(t);
+  replay<double>(LogSignals(log), 0, log.rows(), plant(t), nullptr, 0.002, {},
+                 [&](std::size_t row, const State<double>& s) {
+                   const double sine = std::sin(s.psi_rad);
+                   const double cosine = std::cos(s.psi_rad);
+                   log[LogChannel::kX]->value[row] += kAhead_m * cosine - kLeft_m * sine;
+                   log[LogChannel::kY]->value[row] += kAhead_m * sine + kLeft_m * cosine;
+                 });
+  TrialData data;
+  data.logs = {std::move(log)};
+  const auto result = identify(robot(), data, options(), {});
+  ASSERT_TRUE(result);
+  for (const auto& [name, truth] :
+       {std::pair("position.ahead_m", kAhead_m), std::pair("position.left_m", kLeft_m)}) {
+    const auto found = estimated(*result, name);
+    ASSERT_TRUE(found && found->std_error) << name;
+    EXPECT_NEAR(found->value, truth, 4.5 * *found->std_error) << name;
+  }
+  EXPECT_TRUE(has_finding(*result, "position-sensor"));
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+}
+
 /// The log with the readings of a sway sensor that sits `ahead_m` ahead of the centre of gravity
 /// and is turned to the left by `turned_rad`.
 DrivingLog with_sway_sensor(DrivingLog log, double ahead_m, double turned_rad) {

@@ -54,10 +54,12 @@ inline constexpr std::string_view kSensorScalePrefix =
 inline constexpr std::string_view kSlipPrefix = "slip.";  ///< followed by the channel's column name
 inline constexpr std::string_view kSlipRatioPrefix =
     "slip_ratio.";  ///< followed by the channel's column name
-inline constexpr std::string_view kSwayOffsetName = "sway.offset_m";    ///< of the sway sensor
-inline constexpr std::string_view kSwayAngleName = "sway.angle_rad";    ///< of the sway sensor
-inline constexpr std::string_view kSpeedOffsetName = "speed.offset_m";  ///< of the speed sensor
-inline constexpr std::string_view kCompassSinName = "compass.sin_rad";  ///< deviation at 90 deg
-inline constexpr std::string_view kCompassCosName = "compass.cos_rad";  ///< deviation at 0 deg
+inline constexpr std::string_view kSwayOffsetName = "sway.offset_m";        ///< of the sway sensor
+inline constexpr std::string_view kSwayAngleName = "sway.angle_rad";        ///< of the sway sensor
+inline constexpr std::string_view kSpeedOffsetName = "speed.offset_m";      ///< of the speed sensor
+inline constexpr std::string_view kPositionAheadName = "position.ahead_m";  ///< of the antenna
+inline constexpr std::string_view kPositionLeftName = "position.left_m";    ///< of the antenna
+inline constexpr std::string_view kCompassSinName = "compass.sin_rad";      ///< deviation at 90 deg
+inline constexpr std::string_view kCompassCosName = "compass.cos_rad";      ///< deviation at 0 deg
 
 }  // namespace awmr

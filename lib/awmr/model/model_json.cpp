@@ -35,9 +35,9 @@ bool is_estimated_name(std::string_view name) {
          name == kForceExponentName || name == kForceRiseName || name == kForceFallName ||
          name == kForceSaturationName || name == kSaturationSharpnessName ||
          name == kSwayOffsetName || name == kSwayAngleName || name == kSpeedOffsetName ||
-         name == kCompassSinName || name == kCompassCosName || name == kMotorLagName ||
-         name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
-         name == kQuadraticOverSurgeName ||
+         name == kPositionAheadName || name == kPositionLeftName || name == kCompassSinName ||
+         name == kCompassCosName || name == kMotorLagName || name == kMassOverSurgeName ||
+         name == kCoulombOverSurgeName || name == kQuadraticOverSurgeName ||
          std::ranges::find(kExtraForceNames, name) != kExtraForceNames.end() ||
          name.starts_with(kBiasPrefix) || name.starts_with(kSensorDelayPrefix) ||
          name.starts_with(kSensorLagPrefix) || name.starts_with(kLagDampingPrefix) ||

@@ -103,6 +103,21 @@ std::vector<Finding> compass_findings(const LogFit& fit, const std::string& file
                        degrees(deviation.value), degrees(deviation.error))}};
 }
 
+/// Finding `position-sensor` about the antenna or marker (FreeQuantity::Kind::kPositionAhead).
+std::vector<Finding> position_findings(const LogFit& fit, const std::string& file) {
+  const Identified ahead = identified(fit, Kind::kPositionAhead).value_or(Identified{});
+  const Identified left = identified(fit, Kind::kPositionLeft).value_or(Identified{});
+  if (!is_significant(length_of(ahead, left))) return {};
+  return {
+      {file, 0, Severity::kWarning, "position-sensor",
+       fmt::format("x_m and y_m are the position of a point (an antenna or a marker) {:.3f} +- "
+                   "{:.3f} m {} and {:.3f} +- {:.3f} m to the {} of the centre of gravity. The "
+                   "fit compensates for this, but an autopilot that follows a path with these "
+                   "columns leads this point along the path",
+                   std::abs(ahead.value), ahead.error, ahead.value < 0.0 ? "behind" : "ahead of",
+                   std::abs(left.value), left.error, left.value < 0.0 ? "right" : "left")}};
+}
+
 std::string sensor_delay_text(const FoundTerm& delay, const LogFit&) {
   const bool is_position = delay.quantity.channel == LogChannel::kX;
   return fmt::format(
@@ -378,8 +393,8 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
       findings.push_back({file, 0, Severity::kWarning, one.code, one.text(term, fit)});
     }
   }
-  for (const auto& more :
-       {compass_findings(fit, file), actuator_findings(fit, file), force_findings(fit, file)}) {
+  for (const auto& more : {position_findings(fit, file), compass_findings(fit, file),
+                           actuator_findings(fit, file), force_findings(fit, file)}) {
     append(findings, more);
   }
   if (!withdrawn) return findings;

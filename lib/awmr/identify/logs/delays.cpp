@@ -102,6 +102,7 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
   }
   for (const auto& [one, other] :
        {std::pair(extra_force(ExtraForce::kSlopeX), extra_force(ExtraForce::kSlopeY)),
+        std::pair(free_term(Kind::kPositionAhead), free_term(Kind::kPositionLeft)),
         std::pair(free_term(Kind::kCompassSin), free_term(Kind::kCompassCos))}) {
     if (candidate.quantity.name() == one.name()) terms.push_back({other, 0.0});
     if (candidate.quantity.name() == other.name()) terms.push_back({one, 0.0});

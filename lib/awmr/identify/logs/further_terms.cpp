@@ -178,7 +178,8 @@ std::vector<FreeQuantity> all_terms() {
        {Kind::kDelay, Kind::kSteeringDelay, Kind::kMotorLag, Kind::kForceRise, Kind::kForceFall,
         Kind::kSteeringTrim, Kind::kSteeringDeadBand, Kind::kSteeringAsymmetry,
         Kind::kSteeringCurve, Kind::kForceImbalance, Kind::kForceExponent, Kind::kSwayOffset,
-        Kind::kSwayAngle, Kind::kSpeedOffset, Kind::kCompassSin, Kind::kCompassCos}) {
+        Kind::kSwayAngle, Kind::kSpeedOffset, Kind::kPositionAhead, Kind::kPositionLeft,
+        Kind::kCompassSin, Kind::kCompassCos}) {
     terms.push_back(free_term(kind));
   }
   for (const ExtraForce force : {ExtraForce::kSlopeX, ExtraForce::kSlopeY, ExtraForce::kBrakeForce,
@@ -242,6 +243,9 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   add_term(problem, Kind::kSpeedOffset,
            measured.contains(LogChannel::kSpeed) && measures_turns(problem) && has_turns(problem),
            found);
+  for (const Kind kind : {Kind::kPositionAhead, Kind::kPositionLeft}) {
+    add_term(problem, kind, measured.contains(LogChannel::kX) && has_turns(problem), found);
+  }
   for (const Kind kind : {Kind::kCompassSin, Kind::kCompassCos}) {
     add_term(problem, kind, measured.contains(LogChannel::kHeading), found);
   }

@@ -83,6 +83,8 @@ constexpr KindInfo kKinds[] = {
     {kSwayOffsetName, {-5.0, 5.0}},
     {kSwayAngleName, {-1.0, 1.0}},
     {kSpeedOffsetName, {-5.0, 5.0}},
+    {kPositionAheadName, {-5.0, 5.0}},
+    {kPositionLeftName, {-5.0, 5.0}},
     {kCompassSinName, {-0.5, 0.5}},
     {kCompassCosName, {-0.5, 0.5}}};
 static_assert(std::size(kKinds) == at(FreeQuantity::Kind::kCompassCos) + 1);

@@ -72,6 +72,7 @@ double SensorReadings::reading_of(LogChannel c, const LinearMotion& motion, doub
   }
   if (c == LogChannel::kSway) value = sway(motion);
   if (c == LogChannel::kSpeed) value += add_speed_offset(motion);
+  if (c == LogChannel::kX || c == LogChannel::kY) value += add_antenna(c, motion);
   if (c == LogChannel::kHeading) value += add_deviation(value);
   return scaled(c, value);
 }
@@ -97,6 +98,29 @@ double SensorReadings::add_speed_offset(const LinearMotion& motion) {
     row_[offset->column] -= r;
   }
   return -offset->value * r;
+}
+
+/// Distance along x or y (channel c) from the centre of gravity to the antenna or marker
+/// (FreeQuantity::Kind::kPositionAhead). Adds its derivatives to the row.
+double SensorReadings::add_antenna(LogChannel c, const LinearMotion& motion) {
+  const auto& ahead = terms_.mounting[Kind::kPositionAhead];
+  const auto& left = terms_.mounting[Kind::kPositionLeft];
+  if (!ahead && !left) return 0.0;
+  const double sine = std::sin(motion.state.psi_rad);
+  const double cosine = std::cos(motion.state.psi_rad);
+  const bool is_x = c == LogChannel::kX;
+  const double by_ahead = is_x ? cosine : sine;
+  const double by_left = is_x ? -sine : cosine;
+  const double x_m = terms_.mounting.value(Kind::kPositionAhead);
+  const double y_m = terms_.mounting.value(Kind::kPositionLeft);
+  if (!row_.empty()) {
+    const double by_heading = is_x ? -x_m * sine - y_m * cosine : x_m * cosine - y_m * sine;
+    const double* const heading_by = motion.row(LogChannel::kHeading, row_.size());
+    for (std::size_t i = 0; i < row_.size(); ++i) row_[i] += by_heading * heading_by[i];
+    if (ahead) row_[ahead->column] += by_ahead;
+    if (left) row_[left->column] += by_left;
+  }
+  return x_m * by_ahead + y_m * by_left;
 }
 
 /// Deviation B sin psi + C cos psi of a compass (FreeQuantity::Kind::kCompassSin). Adds its

@@ -51,6 +51,7 @@ class SensorReadings {
   double reading_of(LogChannel c, const LinearMotion& motion, double t_s);
   double sway(const LinearMotion& motion);
   double add_speed_offset(const LinearMotion& motion);
+  double add_antenna(LogChannel c, const LinearMotion& motion);
   double add_deviation(double heading_rad);
   double scaled(LogChannel c, double value);
 
