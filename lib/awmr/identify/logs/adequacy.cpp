@@ -74,7 +74,8 @@ std::string possible_causes(const Channels& channels) {
   }
   const std::string causes =
       "an unmodelled effect (a motor driver that brakes at a command of 0, a curved throttle, "
-      "play or a curved steering linkage without a steering_deg column, a slope, sliding tyres); "
+      "play or a curved steering linkage without a steering_deg column, a castor that swivels, "
+      "steered rear wheels, a slope, sliding tyres); "
       "a change of load, ground or battery during a log; "
       "a wrong value in the vehicle file (half_track_m, front_axle_m, steering.max_rate_degps); "
       "a sensor with a bias or drift";

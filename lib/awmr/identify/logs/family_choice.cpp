@@ -90,8 +90,12 @@ std::optional<Finding> power_law_inadequate(const std::string& file, const BestF
     if (!open.has(of_yaw) || (of_yaw ? best.yaw : best.surge) == Family::kPower) continue;
     const FamilyFit* power = with_power_law(result.others, of_yaw);
     if (!power || !(aic_lead(best.fit, power->fit) > kFamilyAicThreshold)) continue;
-    const std::string with = families_in_words(best.surge, best.yaw);
-    const std::string without = families_in_words(power->surge, power->yaw);
+    const auto in_words = [&](const FamilyFit& fit) {
+      const bool is_yaw_clear = fit.yaw != Family::kPower || best.yaw == Family::kPower;
+      return families_in_words(fit.surge, fit.yaw) + (is_yaw_clear ? "" : ", yaw power");
+    };
+    const std::string with = in_words(best);
+    const std::string without = in_words(*power);
     reasons.push_back(
         power->fit.usable ? fmt::format("the AIC of {} is lower by {} than that of {}", with,
                                         aic_decrease_text(aic_lead(best.fit, power->fit)), without)
