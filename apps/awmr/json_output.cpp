@@ -58,12 +58,11 @@ std::string error_schema() {
                             json.schema(kErrorSchema);
                             json.string("version");
                             json.integer("exit_code", 1, 3);
-                            for (JsonObject& fault : json.objects("errors")) {
+                            json.objects("errors", [](JsonObject& fault) {
                               fault.choice("code", kErrorCodeNames);
                               fault.string("place");
                               fault.string("message");
-                              fault.reject_unknown_keys();
-                            }
+                            });
                             json.reject_unknown_keys();
                           });
 }

@@ -67,7 +67,7 @@ void read_columns(JsonObject json, const std::string& file, Project& project) {
   }
 }
 
-void read_trials(JsonObject json, const FileNames& files, Project& project) {
+void read_trials(JsonObject& json, const FileNames& files, Project& project) {
   project.trials.surge = files.maybe_at(json, "surge");
   if (const auto one = files.maybe_at(json, "coastdown")) project.trials.coastdowns.push_back(*one);
   project.trials.turning = files.maybe_at(json, "turning");
@@ -81,10 +81,9 @@ void read_trials(JsonObject json, const FileNames& files, Project& project) {
       read_columns(columns->object(name), files.of(name).string(), project);
     }
   }
-  json.reject_unknown_keys();
 }
 
-void read_identify(JsonObject json, Project& project) {
+void read_identify(JsonObject& json, Project& project) {
   const auto choice = [&json](const char* key, const auto& table, auto set) {
     if (!json.has(key)) return;
     set(json.choice(key, table));
@@ -120,7 +119,6 @@ void read_identify(JsonObject json, Project& project) {
   project.trials.options.as_is = json.optional_boolean("as_is").value_or(false);
   options.keeps_outliers = project.trials.options.as_is;
   project.trials.steady_from_logs = json.optional_boolean("steady_from_logs").value_or(false);
-  json.reject_unknown_keys();
 }
 
 /// Reads `heading_rate_limit`: a rate in deg/s, "measured" or "none".
@@ -135,7 +133,7 @@ void read_heading_rate(JsonObject& json, Project& project) {
   }
 }
 
-void read_compare(JsonObject json, const FileNames& files, Project& project) {
+void read_compare(JsonObject& json, const FileNames& files, Project& project) {
   project.scenarios = files.all_at(json, "scenarios");
   if (json.size("scenarios") == 0) {
     json.fault(ErrorCode::kMissing, "scenarios", "no scenario is given; name at least one file");
@@ -145,7 +143,6 @@ void read_compare(JsonObject json, const FileNames& files, Project& project) {
   project.compare.seed =
       static_cast<std::uint64_t>(json.optional_integer("seed", 0, 1000000000L).value_or(1));
   read_heading_rate(json, project);
-  json.reject_unknown_keys();
 }
 
 constexpr std::string_view kProjectSchema = "awmr.project/1";
@@ -157,15 +154,15 @@ Project project_from_json(JsonObject& json, const fs::path& path) {
   json.schema(kProjectSchema);
   const FileNames files(path);
   project.vehicle = files.at(json, "vehicle");
-  read_trials(json.object("trials"), files, project);
+  json.object("trials", [&](JsonObject& trials) { read_trials(trials, files, project); });
   if (json.faults().empty() && paths_of(project.trials).empty()) {
     json.fault(ErrorCode::kMissing, "trials",
                "no trials: give at least one of surge, coastdown, turning, logs");
   }
   if (auto columns = json.optional_object("columns")) read_columns(*columns, "", project);
-  if (auto identify = json.optional_object("identify")) read_identify(*identify, project);
+  json.optional_object("identify", [&](JsonObject& object) { read_identify(object, project); });
   project.tune = files.maybe_at(json, "tune");
-  read_compare(json.object("compare"), files, project);
+  json.object("compare", [&](JsonObject& compare) { read_compare(compare, files, project); });
   json.reject_unknown_keys();
   return project;
 }

@@ -35,15 +35,12 @@ void describe_difference(JsonObject json) {
 }
 
 void describe_chip(JsonObject& json) {
-  JsonObject cycles = json.object("cycles");
-  for (const char* key : {"min", "mean", "max"}) cycles.number(key, kNonNegative);
-  cycles.reject_unknown_keys();
+  json.object("cycles", numbers_at({"min", "mean", "max"}, kNonNegative));
   json.nullable_number("cycles_bound", kNonNegative);
-  if (auto hostile = json.optional_object("hostile")) {
-    hostile->integer("steps", 0, kAnyCount);
-    hostile->integer("differing", 0, kAnyCount);
-    hostile->reject_unknown_keys();
-  }
+  json.optional_object("hostile", [](JsonObject& hostile) {
+    hostile.integer("steps", 0, kAnyCount);
+    hostile.integer("differing", 0, kAnyCount);
+  });
   json.number("period_share", kNonNegative);
   json.integer("flash_bytes", 0, kAnyCount);
   json.integer("ram_bytes", 0, kAnyCount);
@@ -53,20 +50,18 @@ void describe_chip(JsonObject& json) {
 }
 
 void describe_verdict(JsonObject& json) {
-  if (auto injected = json.optional_object("injected")) {
+  json.optional_object("injected", [](JsonObject& injected) {
     for (const char* key : {"expected_fault", "fault", "start_fault"}) {
-      injected->integer(key, 0, kAnyCount);
+      injected.integer(key, 0, kAnyCount);
     }
-    injected->boolean("safe");
-    injected->reject_unknown_keys();
-  }
-  for (JsonObject& check : json.objects("checks")) {
+    injected.boolean("safe");
+  });
+  json.objects("checks", [](JsonObject& check) {
     check.string("check");
     check.nullable_number("value");
     check.number("bound");
     check.boolean("passed");
-    check.reject_unknown_keys();
-  }
+  });
   static const std::string kVerdicts[] = {"passed", "failed"};
   json.choice("verdict", kVerdicts);
 }

@@ -56,10 +56,10 @@ std::map<std::string, TurnCommands> read_turn_commands(JsonObject& json) {
   auto scenarios = json.optional_object("turn_commands");
   if (!scenarios) return all;
   for (const std::string& name : scenarios->keys()) {
-    JsonObject one = scenarios->object(name);
-    all[name] = {.are_headings = one.boolean("are_headings"),
-                 .rate_max_degps = one.optional_number("rate_max_degps", kPositive)};
-    one.reject_unknown_keys();
+    all[name] = scenarios->object(name, [](JsonObject& one) {
+      return TurnCommands{.are_headings = one.boolean("are_headings"),
+                          .rate_max_degps = one.optional_number("rate_max_degps", kPositive)};
+    });
   }
   return all;
 }
@@ -82,29 +82,24 @@ Json change_to_json(const Change& change) {
   return json;
 }
 
-std::vector<Change> read_changes(JsonObject& json) {
-  std::vector<Change> changes;
-  for (JsonObject& one : json.optional_objects("changes")) {
-    Change change{.scenario = one.string("scenario"),
-                  .kind = one.choice("kind", kChangeKindNames),
-                  .setting = one.string("setting"),
-                  .first = {},
-                  .not_run = one.string("not_run")};
-    for (JsonObject& first : one.objects("first")) {
-      change.first.push_back({first.choice("mode", kYawModeNames), first.string("gains")});
-      first.reject_unknown_keys();
-    }
-    for (JsonObject& completed : one.optional_objects("completed")) {
-      change.completed.push_back(
-          {{completed.choice("mode", kYawModeNames), completed.string("gains")},
-           static_cast<std::size_t>(completed.integer("count", 0, kMaxSamples)),
-           static_cast<std::size_t>(completed.integer("of", 1, kMaxSamples))});
-      completed.reject_unknown_keys();
-    }
-    one.reject_unknown_keys();
-    changes.push_back(std::move(change));
-  }
-  return changes;
+Contender read_contender(JsonObject& json) {
+  return {json.choice("mode", kYawModeNames), json.string("gains")};
+}
+
+Completion read_completion(JsonObject& json) {
+  return {read_contender(json), at(json.integer("count", 0, kMaxSamples)),
+          at(json.integer("of", 1, kMaxSamples))};
+}
+
+Change read_change(JsonObject& json) {
+  Change change{.scenario = json.string("scenario"),
+                .kind = json.choice("kind", kChangeKindNames),
+                .setting = json.string("setting"),
+                .first = {},
+                .not_run = json.string("not_run")};
+  change.first = json.objects("first", read_contender);
+  change.completed = json.optional_objects("completed", read_completion);
+  return change;
 }
 
 Payload read_payload(JsonObject& json) {
@@ -113,7 +108,7 @@ Payload read_payload(JsonObject& json) {
           .preferences = read_preferences(json),
           .measured_yaw_rate_degps = json.optional_number("measured_yaw_rate_degps", kPositive),
           .turn_commands = read_turn_commands(json),
-          .changes = read_changes(json),
+          .changes = json.optional_objects("changes", read_change),
           .findings = read_findings(json)};
 }
 

@@ -32,7 +32,7 @@ Result<Json> read_json_file(const std::filesystem::path& path);
 class JsonShape;
 class JsonObject;
 
-/// Function that reads the keys of an object and returns a value. It takes `JsonObject&`: a copy
+/// Function that reads the keys of an object. It may return a value. It takes `JsonObject&`: a copy
 /// would not mark the keys of the object as known.
 template <class Read>
 concept ObjectReader =
@@ -107,9 +107,14 @@ class JsonObject {
   /// Returns read(*this), and then rejects the keys that it did not read.
   template <ObjectReader Read>
   auto read_by(const Read& read) {
-    auto value = read(*this);
-    reject_unknown_keys();
-    return value;
+    if constexpr (std::is_void_v<decltype(read(*this))>) {
+      read(*this);
+      reject_unknown_keys();
+    } else {
+      auto value = read(*this);
+      reject_unknown_keys();
+      return value;
+    }
   }
   /// Reads the object under the key by read_by().
   template <ObjectReader Read>
@@ -119,28 +124,32 @@ class JsonObject {
   template <ObjectReader Read>
   auto optional_object(std::string_view key, const Read& read) {
     using Value = decltype(read(*this));
-    return has(key) ? std::optional<Value>(object(key, read)) : std::optional<Value>();
+    if constexpr (std::is_void_v<Value>) {
+      if (has(key)) object(key, read);
+    } else {
+      return has(key) ? std::optional<Value>(object(key, read)) : std::optional<Value>();
+    }
   }
   /// The elements of an array of objects.
   std::vector<JsonObject> objects(std::string_view key);
   std::vector<JsonObject> optional_objects(std::string_view key) {
     return has(key) ? objects(key) : std::vector<JsonObject>();
   }
-  /// Reads each element by read_by().
+  /// The values of this object, if its keys are arbitrary and its values are all objects.
+  std::vector<JsonObject> values();
+  // As above, but each function reads every object by read_by(), and returns the values.
   template <ObjectReader Read>
   auto objects(std::string_view key, const Read& read) {
-    std::vector<decltype(read(*this))> values;
-    for (JsonObject& element : objects(key)) values.push_back(element.read_by(read));
-    return values;
+    return read_all(objects(key), read);
   }
   template <ObjectReader Read>
   auto optional_objects(std::string_view key, const Read& read) {
-    std::vector<decltype(read(*this))> values;
-    for (JsonObject& element : optional_objects(key)) values.push_back(element.read_by(read));
-    return values;
+    return read_all(optional_objects(key), read);
   }
-  /// The values of this object, if its keys are arbitrary and its values are all objects.
-  std::vector<JsonObject> values();
+  template <ObjectReader Read>
+  auto values(const Read& read) {
+    return read_all(values(), read);
+  }
   /// Marks a key as known without reading its value; the key may be missing.
   void ignore(std::string_view key);
   /// Reads the optional key `schema`. Call it before all other keys are read: if the value is not
@@ -164,6 +173,17 @@ class JsonObject {
   std::string pointer(std::string_view key) const;
 
  private:
+  template <ObjectReader Read>
+  static auto read_all(std::vector<JsonObject> all, const Read& read) {
+    using Value = std::invoke_result_t<const Read&, JsonObject&>;
+    if constexpr (std::is_void_v<Value>) {
+      for (JsonObject& one : all) one.read_by(read);
+    } else {
+      std::vector<Value> values;
+      for (JsonObject& one : all) values.push_back(one.read_by(read));
+      return values;
+    }
+  }
   const Json* find(std::string_view key, bool required);
   /// The array under the key; null, with a fault, if the key is missing or has another value.
   /// `elements`: what the array should have, for the fault ("numbers").
@@ -177,6 +197,13 @@ class JsonObject {
   JsonShape* shape_ = nullptr;  ///< null: reads a document
   std::set<std::string, std::less<>> known_;
 };
+
+/// Reader of an object that has only numbers, under these keys.
+inline auto numbers_at(std::vector<const char*> keys, NumberRule rule = kAnyNumber) {
+  return [keys = std::move(keys), rule](JsonObject& json) {
+    for (const char* key : keys) json.number(key, rule);
+  };
+}
 
 /// Returns the result of `read(JsonObject&)`, applied to a document. `file`: its name in errors.
 /// Errors (input): all faults that `read` finds.

@@ -54,7 +54,7 @@ Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   }
   Draws draws{static_cast<int>(robust.integer("draws", 0, 1000)),
               static_cast<std::uint64_t>(robust.integer("seed", 0, 4'294'967'295L))};
-  if (auto open = robust.optional_object("open")) draws.open = read_open(std::move(*open));
+  if (auto open = robust.optional_object("open", read_open)) draws.open = *std::move(open);
   return draws;
 }
 
@@ -69,14 +69,11 @@ Result<Draws> take_tuning(const Json& gains, LiveSetup& setup) {
   // If the modes have gains of their own, the gains at the root are those of combined mode.
   if (json.has("modes")) setup.context.mode = YawMode::kCombined;
   take_reaching(json, tuned.heading.lambda, setup.context);
-  if (auto limits = json.optional_object("limits")) {
-    setup.context.limits = read_limits(std::move(*limits));
-  }
-  if (auto examined = json.optional_object("examined")) {
-    const ExaminedRange range = read_examined(std::move(*examined));
-    setup.context.speed_mps = range.speed_mps;
-    setup.context.step_rad = range.step_rad;
-    setup.context.fastest_radps = range.yaw_rate_radps;
+  if (auto limits = json.optional_object("limits", read_limits)) setup.context.limits = *limits;
+  if (const auto range = json.optional_object("examined", read_examined)) {
+    setup.context.speed_mps = range->speed_mps;
+    setup.context.step_rad = range->step_rad;
+    setup.context.fastest_radps = range->yaw_rate_radps;
   }
   Draws draws;
   if (auto robust = json.optional_object("robust")) draws = take_conditions(*robust, setup.context);

@@ -58,8 +58,8 @@ void read_search(JsonObject& json, TuneOptions& options) {
   options.nominal = json.optional_boolean("nominal").value_or(options.nominal);
   options.adds_observer = !json.optional_boolean("no_observer").value_or(!options.adds_observer);
   if (json.has("goals")) options.evaluation_draws = kGoalDraws;
-  if (auto open = json.optional_object("open")) {
-    options.open = read_open(std::move(*open));
+  if (auto open = json.optional_object("open", read_open)) {
+    options.open = *std::move(open);
     fit_draws_to(options.open, options);
   }
   search_options(options, ReadOption{json});
@@ -92,17 +92,14 @@ void read_baseline(JsonObject& json, const std::filesystem::path& directory, Tun
   if (is_file) config.baseline_file = directory / *name;
 }
 
-ObserverSearch read_observer(JsonObject json) {
+ObserverSearch read_observer(JsonObject& json) {
   ObserverSearch observer;
   observer_options(observer, ReadOption{json});
-  json.reject_unknown_keys();
   return observer;
 }
 
 void read_goals(JsonObject& json, TuneOptions& options) {
-  for (JsonObject& goal : json.optional_objects("goals")) {
-    options.goals.push_back(read_goal(std::move(goal)));
-  }
+  options.goals = json.optional_objects("goals", read_goal);
   if (options.goals.size() > kMaxGoals) {
     json.fault(ErrorCode::kTooLarge, "goals",
                fmt::format("{} goals are given, but at most {} are allowed; remove some",
@@ -150,21 +147,16 @@ TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& dir
   object.schema(kTuneSchema);
   read_search(object, config.options);
   read_weights(object, config.options.weights);
-  if (auto bounds = object.optional_object("bounds")) {
-    bound_options(config.options.bounds, ReadOption{*bounds});
-    bounds->reject_unknown_keys();
+  object.optional_object("bounds", [&](JsonObject& bounds) {
+    bound_options(config.options.bounds, ReadOption{bounds});
+  });
+  config.options.observer = object.optional_object("observer", read_observer);
+  if (config.options.observer && !config.options.adds_observer) {
+    object.fault(
+        ErrorCode::kConflict, "no_observer",
+        "this key forbids an observer, but `observer` requests one; remove one of the two");
   }
-  if (auto observer = object.optional_object("observer")) {
-    config.options.observer = read_observer(std::move(*observer));
-    if (!config.options.adds_observer) {
-      object.fault(
-          ErrorCode::kConflict, "no_observer",
-          "this key forbids an observer, but `observer` requests one; remove one of the two");
-    }
-  }
-  if (auto limits = object.optional_object("limits")) {
-    config.options.limits = read_limits(std::move(*limits));
-  }
+  if (auto limits = object.optional_object("limits", read_limits)) config.options.limits = *limits;
   read_goals(object, config.options);
   read_baseline(object, directory, config, faults);
   read_scenarios(object, directory, config, faults);

@@ -47,31 +47,27 @@ void ReadOption::operator()(const char* key, std::optional<Interval>& value,
   value = json.optional_interval(key, rule);
 }
 
-TuningLimits read_limits(JsonObject json) {
+TuningLimits read_limits(JsonObject& json) {
   TuningLimits limits;
   limit_options(limits, ReadOption{json});
-  json.reject_unknown_keys();
   return limits;
 }
 
-ExaminedRange read_examined(JsonObject json) {
-  const ExaminedRange range{
-      .speed_mps = json.number("speed_mps", {.min = 0.0}),
-      .step_rad = radians(json.number("step_deg", {.min = 0.0})),
-      .yaw_rate_radps = radians(json.number("yaw_rate_degps", {.min = 0.0, .min_excluded = true}))};
-  json.reject_unknown_keys();
-  return range;
+ExaminedRange read_examined(JsonObject& json) {
+  return {.speed_mps = json.number("speed_mps", kNonNegative),
+          .step_rad = radians(json.number("step_deg", kNonNegative)),
+          .yaw_rate_radps = radians(json.number("yaw_rate_degps", kPositive))};
 }
 
-TuningGoal read_goal(JsonObject json) {
+TuningGoal read_goal(JsonObject& json) {
   TuningGoal goal;
-  JsonObject limits = json.object("at_most");
-  for (const std::string& figure : run_figure_names()) {
-    if (const auto most = limits.optional_number(figure, kGoalLimit)) {
-      goal.at_most.push_back({figure, *most});
+  json.object("at_most", [&](JsonObject& limits) {
+    for (const std::string& figure : run_figure_names()) {
+      if (const auto most = limits.optional_number(figure, kGoalLimit)) {
+        goal.at_most.push_back({figure, *most});
+      }
     }
-  }
-  limits.reject_unknown_keys();
+  });
   if (json.size("at_most") == 0) {
     json.fault(ErrorCode::kMissing, "at_most",
                "this goal contains no metric; give at least one with its limit");
@@ -79,11 +75,10 @@ TuningGoal read_goal(JsonObject json) {
   goal.share = json.optional_number("share", kGoalShare).value_or(goal.share);
   if (json.has("mode")) goal.mode = json.choice("mode", kYawModeNames);
   goal.is_soft = json.optional_boolean("soft").value_or(false);
-  json.reject_unknown_keys();
   return goal;
 }
 
-UnmodelledVariation read_open(JsonObject json) {
+UnmodelledVariation read_open(JsonObject& json) {
   UnmodelledVariation open;
   if (json.has("mass_factors")) {
     open.mass_factors = json.numbers("mass_factors", kMassFactor);
@@ -106,7 +101,6 @@ UnmodelledVariation read_open(JsonObject json) {
                fmt::format("{} values are given, but at most {} are allowed; remove some", count,
                            kMaxOpenValues));
   }
-  json.reject_unknown_keys();
   return open;
 }
 

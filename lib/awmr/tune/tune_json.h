@@ -22,16 +22,16 @@ struct ReadOption {
 };
 
 /// Reads the limits of tune.json or gains.json. Missing keys get their default values.
-TuningLimits read_limits(JsonObject json);
+TuningLimits read_limits(JsonObject& json);
 
 /// Reads `/examined` of gains.json.
-ExaminedRange read_examined(JsonObject json);
+ExaminedRange read_examined(JsonObject& json);
 
 /// Reads a goal, as in tune.json.
-TuningGoal read_goal(JsonObject json);
+TuningGoal read_goal(JsonObject& json);
 
 /// Reads and writes the unmodelled variation (key `open` of tune.json).
-UnmodelledVariation read_open(JsonObject json);
+UnmodelledVariation read_open(JsonObject& json);
 Json open_json(const UnmodelledVariation& open);
 
 /// Writes `/robust/quantiles` of gains.json, the quantiles of the metrics by mode, then gains.
