@@ -72,6 +72,7 @@ std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveS
     all.push_back(
         unsettled_in(runs_in(setting, scenario, mode), context, tuning.gains, is_varied, search));
     all.back().scenario = scenario;
+    all.back().settled_share = settled_share;
   };
   if (tuning.robust && !tuning.robust->evaluated.empty()) {
     const RobustTuning& robust = *tuning.robust;

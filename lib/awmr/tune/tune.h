@@ -449,6 +449,7 @@ struct UnsettlingError {
 struct UnsettledRuns {
   std::string scenario;  ///< name of the scenario; empty if there is only one
   YawMode mode{};
+  double settled_share = 0.0;  ///< share of the runs that settle, [0, kSettledShare)
   /// Why the mode cannot turn the vehicle (turning.h); empty if it can.
   std::string why = {};
   /// Effect of Coulomb friction in yaw; absent if it is not a cause.

@@ -54,16 +54,11 @@ std::string friction_text(const FrictionEffect& friction) {
 }
 
 /// Returns the end of a message about runs that do not settle: why the mode cannot turn the
-/// vehicle, or the changes with which the runs settle. Precondition: `unsettled` contains this
-/// scenario and mode.
-std::string advice_for(const std::string& scenario, YawMode mode,
-                       std::span<const UnsettledRuns> unsettled) {
-  const auto found = std::ranges::find_if(unsettled, [&](const UnsettledRuns& runs) {
-    return runs.scenario == scenario && runs.mode == mode;
-  });
-  if (!found->why.empty()) return ": " + found->why;
-  std::string advice = found->friction ? friction_text(*found->friction) : "";
-  if (const auto& noise = found->noise) {
+/// vehicle, or the changes with which the runs settle.
+std::string advice_for(const UnsettledRuns& found) {
+  if (!found.why.empty()) return ": " + found.why;
+  std::string advice = found.friction ? friction_text(*found.friction) : "";
+  if (const auto& noise = found.noise) {
     return advice +
            fmt::format(
                ". With noise-free sensors{}, {:.0f} % settle{}: {} the heading out of the settling "
@@ -82,45 +77,39 @@ std::string advice_for(const std::string& scenario, YawMode mode,
                noise->is_of_identified ? ", and record trials that reduce the errors (awmr suggest)"
                                        : "");
   }
-  if (const auto& error = found->error) {
+  if (const auto& error = found.error) {
     advice += fmt::format(
         ". With the identified values of all parameters, {:.0f} % settle, so errors of the model "
         "keep runs from settling. The largest effect has the error of {}: with its identified "
         "value alone, {:.0f} % settle. Record {}, and identify again",
         100.0 * error->share_of_identified, error->quantity, 100.0 * error->settled_share,
         error->trial);
-    if (found->changes.empty()) return advice;
+    if (found.changes.empty()) return advice;
   }
   const std::string runs =
-      fmt::format("{:g} % of the runs of {} vehicles", 100.0 * kSettledShare, found->vehicles);
+      fmt::format("{:g} % of the runs of {} vehicles", 100.0 * kSettledShare, found.vehicles);
   return advice + ". " +
-         (found->changes.empty() ? no_change_settles(runs) : describe(found->changes, runs));
+         (found.changes.empty() ? no_change_settles(runs) : describe(found.changes, runs));
 }
 
-/// Scenarios and modes in which fewer than 95 % of the runs settle, with the same advice.
-struct FewSettled {
-  std::string runs;    ///< share of each scenario and mode: "40 % (SCENARIO, MODE), 0 % (...)"
-  std::string advice;  ///< advice_for()
-};
-
-/// Adds one scenario and mode to `few`, unless enough of its runs settle.
-void add_unsettled(const std::string& scenario, YawMode mode, double share,
-                   std::span<const UnsettledRuns> unsettled, std::vector<FewSettled>& few) {
-  if (share >= kSettledShare) return;
-  const std::string runs = fmt::format("{:.0f} % ({}{}{})", 100.0 * share, scenario,
-                                       scenario.empty() ? "" : ", ", name_of(mode));
-  const std::string advice = advice_for(scenario, mode, unsettled);
-  const auto known = std::ranges::find(few, advice, &FewSettled::advice);
-  if (known == few.end()) {
-    few.push_back({runs, advice});
-  } else {
-    known->runs += ", " + runs;
+/// Returns a warning for each advice, with all scenarios and modes that get this advice, and the
+/// shares of their runs that settle: "40 % (SCENARIO, MODE), 0 % (...)".
+std::vector<Finding> unsettled_findings(std::span<const UnsettledRuns> unsettled) {
+  std::vector<std::pair<std::string, std::string>> all;  // runs and advice
+  for (const UnsettledRuns& one : unsettled) {
+    const std::string runs =
+        fmt::format("{:.0f} % ({}{}{})", 100.0 * one.settled_share, one.scenario,
+                    one.scenario.empty() ? "" : ", ", name_of(one.mode));
+    const std::string advice = advice_for(one);
+    const auto known = std::ranges::find(all, advice, &std::pair<std::string, std::string>::second);
+    if (known == all.end()) {
+      all.emplace_back(runs, advice);
+    } else {
+      known->first += ", " + runs;
+    }
   }
-}
-
-std::vector<Finding> unsettled_findings(std::span<const FewSettled> few) {
   std::vector<Finding> findings;
-  for (const auto& [runs, advice] : few) {
+  for (const auto& [runs, advice] : all) {
     findings.push_back(
         {"", 0, Severity::kWarning, "unsettled",
          fmt::format("of the runs with the tuned gains, {} settle after every heading step{}", runs,
@@ -228,42 +217,17 @@ void note_scenarios(const Model& model, const TuneOptions& options, const Tuning
   }
 }
 
-/// Findings from the runs of the nominal vehicle, used without runs of newly drawn vehicles.
-std::vector<Finding> nominal_findings(const Tuning& tuning) {
-  std::vector<FewSettled> few;
-  for (const ModeScore& score : tuning.scores) {
-    add_unsettled(score.scenario, score.mode, score.metrics.completed ? 1.0 : 0.0, tuning.unsettled,
-                  few);
-  }
-  return unsettled_findings(few);
-}
-
-/// Returns findings from the runs of newly drawn vehicles, which the search did not use. These are
-/// warnings about goals that the vehicles do not confirm (`goal-missed`, `goal-open`), and about
-/// scenarios and modes in which fewer than 95 % of the runs settle (`unsettled`).
-std::vector<Finding> evaluation_findings(const RobustTuning& robust,
-                                         std::span<const UnsettledRuns> unsettled) {
-  std::vector<Finding> findings;
-  for (const EvaluatedGoal& goal : robust.goals) {
-    if (goal.gains == kRobustGains) note_goal(goal, findings);
-  }
-  std::vector<FewSettled> few;
-  for (const EvaluatedGains& one :
-       robust.evaluated_by_scenario.empty() ? robust.evaluated : robust.evaluated_by_scenario) {
-    if (one.gains == kRobustGains) {
-      add_unsettled(one.scenario, one.mode, one.completed_share, unsettled, few);
-    }
-  }
-  std::ranges::move(unsettled_findings(few), std::back_inserter(findings));
-  return findings;
-}
-
-/// Findings about one search: of one mode or of all modes.
+/// Findings about one search: of one mode or of all modes. The first are warnings about goals that
+/// the newly drawn vehicles do not confirm.
 std::vector<Finding> search_findings(const Model& model, const TuneOptions& options,
                                      const Tuning& tuning) {
-  std::vector<Finding> findings = tuning.robust && !tuning.robust->evaluated.empty()
-                                      ? evaluation_findings(*tuning.robust, tuning.unsettled)
-                                      : nominal_findings(tuning);
+  std::vector<Finding> findings;
+  if (tuning.robust) {
+    for (const EvaluatedGoal& goal : tuning.robust->goals) {
+      if (goal.gains == kRobustGains) note_goal(goal, findings);
+    }
+  }
+  std::ranges::move(unsettled_findings(tuning.unsettled), std::back_inserter(findings));
   note_baseline(tuning, findings);
   const auto fastest = std::ranges::max_element(
       tuning.scores, {}, [](const ModeScore& score) { return score.metrics.yaw_rate_max_degps; });
