@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
-#include "awmr/compare/ranking_entry.h"
 #include "awmr/compare/scoring.h"
+#include "awmr/core/binomial.h"
 #include "awmr/core/random.h"
 #include "awmr/core/sample_quantile.h"
 
@@ -17,6 +18,83 @@ namespace {
 constexpr std::uint64_t kWeightStream = std::uint64_t{5} << 61U;
 /// Number of random weightings. A larger number makes the shares more exact.
 constexpr int kWeightings = 1000;
+
+/// A mode to be ranked, with the logarithms from which its score is computed.
+struct RankingEntry {
+  std::size_t mode = 0;  ///< index in ScenarioRows::modes
+  const ModeRows* rows = nullptr;
+  /// log_score() of each run in the statistics (ModeRows::counted).
+  std::vector<double> log_scores;
+  std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() over the same runs
+  /// False if the mode completes significantly fewer runs than the mode with the most completed
+  /// runs, or no run although another mode completes some.
+  bool completes = true;
+
+  double log_score() const { return mean_of(log_scores); }
+};
+
+RankingEntry entry_of(const ScenarioRows& scenario, std::size_t mode,
+                      const std::vector<ScoredMetric>& scoring) {
+  const ModeRows& rows = scenario.modes[mode];
+  RankingEntry entry{
+      .mode = mode, .rows = &rows, .log_scores = log_scores(rows, scoring), .mean_losses = {}};
+  for (const ScoredMetric& scored : scoring) {
+    entry.mean_losses.push_back(mean_log_loss(rows, scored));
+  }
+  return entry;
+}
+
+/// Order of modes with equal scores: by mode, then by name of the gains, so that the order in which
+/// the user gives the gains does not matter.
+bool is_before(const ModeRows& a, const ModeRows& b) {
+  return std::tie(a.contender.mode, a.contender.gains) <
+         std::tie(b.contender.mode, b.contender.gains);
+}
+
+/// True if two modes complete the scenario about equally often: the exact McNemar test, which
+/// compares the runs sample by sample, finds no significant difference. False if only one mode
+/// completes any run.
+bool complete_alike(const ModeRows& a, const ModeRows& b) {
+  if ((a.completed_count() == 0) != (b.completed_count() == 0)) return false;
+  const auto first = a.counted();
+  const auto second = b.counted();
+  std::size_t only_first = 0;
+  std::size_t only_second = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i].metrics.completed && !second[i].metrics.completed) ++only_first;
+    if (second[i].metrics.completed && !first[i].metrics.completed) ++only_second;
+  }
+  return mcnemar_p(only_first, only_second) >= kSignificance;
+}
+
+/// Returns the modes of a scenario, best first. Modes that complete often enough
+/// (RankingEntry::completes) come first, sorted by score; the other modes follow, sorted by number
+/// of completed runs.
+std::vector<RankingEntry> sorted_entries(const ScenarioRows& scenario,
+                                         const std::vector<ScoredMetric>& scoring) {
+  std::vector<RankingEntry> entries;
+  for (std::size_t mode = 0; mode < scenario.modes.size(); ++mode) {
+    entries.push_back(entry_of(scenario, mode, scoring));
+  }
+  const auto most = std::max_element(
+      scenario.modes.begin(), scenario.modes.end(), [](const ModeRows& a, const ModeRows& b) {
+        const std::size_t first = a.completed_count();
+        const std::size_t second = b.completed_count();
+        return first < second || (first == second && is_before(b, a));
+      });
+  for (RankingEntry& entry : entries) entry.completes = complete_alike(*entry.rows, *most);
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const RankingEntry& a, const RankingEntry& b) {
+                     if (a.completes != b.completes) return a.completes;
+                     if (!a.completes && a.rows->completed_count() != b.rows->completed_count()) {
+                       return a.rows->completed_count() > b.rows->completed_count();
+                     }
+                     const double first = a.log_score();
+                     const double second = b.log_score();
+                     return first < second || (!(second < first) && is_before(*a.rows, *b.rows));
+                   });
+  return entries;
+}
 
 /// Returns the difference of the mean log scores of two modes, `own` minus `leader`, in each
 /// bootstrap resample, sorted ascending:

@@ -18,10 +18,6 @@ namespace {
 /// Random stream of the bootstrap; the drawn samples have the streams of their numbers.
 constexpr std::uint64_t kBootstrapStream = std::uint64_t{1} << 63U;
 
-double mean_of(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 std::optional<double> difference(const MetricColumn& metric, const Metrics& a, const Metrics& b) {
   const auto x = metric.value(a);
   const auto y = metric.value(b);
@@ -221,6 +217,10 @@ double bootstrap_tail(std::size_t count, double tail) {
   const auto n = static_cast<double>(count);
   const double t = students_t_quantile(1.0 - tail, n - 1.0);
   return normal_cdf(-t * std::sqrt(n / (n - 1.0)));
+}
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 Summary summarise(const ModeRows& rows, const MetricColumn& metric) {

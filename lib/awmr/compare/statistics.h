@@ -19,6 +19,9 @@
 
 namespace awmr {
 
+/// Mean of one or more values.
+double mean_of(std::span<const double> values);
+
 /// Mean and quantiles of one metric of a contender.
 struct Summary {
   std::optional<double> nominal;        ///< value in sample 0, the nominal model
