@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -21,19 +20,17 @@ ConstraintReport violated_limit(std::string name, double value, double limit, Se
           .sense = sense};
 }
 
-void add_bounds(const Gains<double>& g, const GainBounds& bounds,
+void add_bounds(const Gains<double>& baseline, const GainBounds& bounds,
                 std::vector<ConstraintReport>& all) {
-  const double gains[] = {g.heading.lambda, g.heading.mu, g.heading.epsilon, g.speed.mu,
-                          g.speed.epsilon};
-  std::size_t next = 0;
-  bound_options(bounds, [&](const char* key, const std::optional<Interval>& range, const auto&) {
-    const double gain = gains[next++];
-    if (!range || range->contains(gain)) return;
+  for (const SearchedGain& searched : kSearchedGains) {
+    const std::optional<Interval>& range = bounds.*searched.bounds;
+    const double gain = searched.of(baseline);
+    if (!range || range->contains(gain)) continue;
     const bool is_below = gain < range->lo;
-    all.push_back(violated_limit(fmt::format("bounds/{}", key), gain,
+    all.push_back(violated_limit(fmt::format("bounds/{}", searched.key), gain,
                                  is_below ? range->lo : range->hi,
                                  is_below ? Sense::kAtLeast : Sense::kAtMost));
-  });
+  }
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 /// documentation. `value` is a double, an int, or an optional number or interval.
 #pragma once
 
+#include <optional>
+
 #include "awmr/core/number_rule.h"
 #include "awmr/model/ranges.h"
 #include "awmr/tune/objective.h"
@@ -62,14 +64,27 @@ inline bool has_weight(const ObjectiveWeights& weights) {
   return has;
 }
 
+/// A gain that the search varies.
+struct SearchedGain {
+  const char* key;  ///< in /bounds of tune.json
+  std::optional<Interval> GainBounds::*bounds;
+  double (*of)(const Gains<double>& gains);
+};
+/// In the order of a Point (problem.h).
+inline constexpr SearchedGain kSearchedGains[] = {
+    {"lambda", &GainBounds::lambda, [](const Gains<double>& g) { return g.heading.lambda; }},
+    {"mu", &GainBounds::mu, [](const Gains<double>& g) { return g.heading.mu; }},
+    {"epsilon", &GainBounds::epsilon, [](const Gains<double>& g) { return g.heading.epsilon; }},
+    {"speed_mu", &GainBounds::speed_mu, [](const Gains<double>& g) { return g.speed.mu; }},
+    {"speed_epsilon", &GainBounds::speed_epsilon,
+     [](const Gains<double>& g) { return g.speed.epsilon; }}};
+
 /// Keys of /bounds in tune.json. The number range applies to both ends of each interval.
 template <class Bounds, class Field>
 void bound_options(Bounds& bounds, const Field& field) {
-  field("lambda", bounds.lambda, kUpToAMillion);
-  field("mu", bounds.mu, kUpToAMillion);
-  field("epsilon", bounds.epsilon, kUpToAMillion);
-  field("speed_mu", bounds.speed_mu, kUpToAMillion);
-  field("speed_epsilon", bounds.speed_epsilon, kUpToAMillion);
+  for (const SearchedGain& gain : kSearchedGains) {
+    field(gain.key, bounds.*gain.bounds, kUpToAMillion);
+  }
 }
 
 /// Keys of /observer.

@@ -9,6 +9,7 @@
 
 #include "awmr/core/parallel.h"
 #include "awmr/tune/goals.h"
+#include "awmr/tune/option_table.h"
 #include "awmr/tune/steering_rate.h"
 
 namespace awmr {
@@ -24,22 +25,23 @@ constexpr double kInvalid = 1.0;
 }  // namespace
 
 void bound_around(std::span<const Gains<double>> gains, GainBounds& bounds) {
-  const auto around = [gains](std::optional<Interval>& bound, const auto& gain_of) {
-    if (bound) return;
-    const auto [least, largest] = std::ranges::minmax(gains | std::views::transform(gain_of));
+  for (const SearchedGain& searched : kSearchedGains) {
+    std::optional<Interval>& bound = bounds.*searched.bounds;
+    if (bound) continue;
+    const auto [least, largest] = std::ranges::minmax(gains | std::views::transform(searched.of));
     bound = Interval{least / kBoundFactor, largest * kBoundFactor};
-  };
-  around(bounds.lambda, [](const Gains<double>& g) { return g.heading.lambda; });
-  around(bounds.mu, [](const Gains<double>& g) { return g.heading.mu; });
-  around(bounds.epsilon, [](const Gains<double>& g) { return g.heading.epsilon; });
-  around(bounds.speed_mu, [](const Gains<double>& g) { return g.speed.mu; });
-  around(bounds.speed_epsilon, [](const Gains<double>& g) { return g.speed.epsilon; });
+  }
 }
 
 SearchSpace::SearchSpace(const TuneOptions& options) : observer_(options.observer) {
-  const GainBounds& b = options.bounds;
-  const Interval bandwidth = observer_ ? observer_->bandwidth_radps : Interval{1.0, 1.0};
-  range_ = {*b.lambda, *b.mu, *b.epsilon, *b.speed_mu, *b.speed_epsilon, bandwidth};
+  range_.back() = observer_ ? observer_->bandwidth_radps : Interval{1.0, 1.0};
+  std::ranges::transform(kSearchedGains, range_.begin(), [&](const SearchedGain& searched) {
+    return *(options.bounds.*searched.bounds);
+  });
+  for (unsigned i = 0; i < kMaxDimensions; ++i) {
+    lower_corner_[i] = std::log(range_[i].lo);
+    upper_corner_[i] = std::log(range_[i].hi);
+  }
 }
 
 Gains<double> SearchSpace::gains_at(const Point& x) const {
@@ -52,24 +54,13 @@ Gains<double> SearchSpace::gains_at(const Point& x) const {
   return gains;
 }
 
-Point SearchSpace::lower_corner() const {
+Point SearchSpace::point_of(const Gains<double>& gains) const {
   Point x{};
-  for (unsigned i = 0; i < kMaxDimensions; ++i) x[i] = std::log(range_[i].lo);
-  return x;
-}
-
-Point SearchSpace::upper_corner() const {
-  Point x{};
-  for (unsigned i = 0; i < kMaxDimensions; ++i) x[i] = std::log(range_[i].hi);
-  return x;
-}
-
-Point SearchSpace::point_of(const Gains<double>& g) const {
-  const Point gains{g.heading.lambda, g.heading.mu,    g.heading.epsilon,
-                    g.speed.mu,       g.speed.epsilon, g.observer.bandwidth_radps};
-  Point x{};
+  x.back() = gains.observer.bandwidth_radps;
+  std::ranges::transform(kSearchedGains, x.begin(),
+                         [&](const SearchedGain& searched) { return searched.of(gains); });
   for (unsigned i = 0; i < kMaxDimensions; ++i) {
-    x[i] = std::log(std::clamp(gains[i], range_[i].lo, range_[i].hi));
+    x[i] = std::log(std::clamp(x[i], range_[i].lo, range_[i].hi));
   }
   return x;
 }

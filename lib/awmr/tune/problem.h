@@ -31,14 +31,16 @@ class SearchSpace {
   explicit SearchSpace(const TuneOptions& options);
 
   unsigned dimension() const { return observer_ ? kMaxDimensions : kMaxDimensions - 1; }
-  Point lower_corner() const;
-  Point upper_corner() const;
+  const Point& lower_corner() const { return lower_corner_; }
+  const Point& upper_corner() const { return upper_corner_; }
   /// Returns the gains at the point, clamped to the bounds because exp() rounds.
   Gains<double> gains_at(const Point& point) const;
   Point point_of(const Gains<double>& gains) const;
 
  private:
-  std::array<Interval, kMaxDimensions> range_;
+  std::array<Interval, kMaxDimensions> range_{};
+  Point lower_corner_{};
+  Point upper_corner_{};
   std::optional<ObserverSearch> observer_;
 };
 

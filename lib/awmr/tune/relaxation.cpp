@@ -93,20 +93,6 @@ double in_two_digits(const Limit& limit, double number) {
   return digit * (limit.relaxed_by_less ? std::floor(number / digit) : std::ceil(number / digit));
 }
 
-/// A range of the gains in tune.json.
-struct Bound {
-  const char* key;
-  std::optional<Interval> GainBounds::*range;
-  double (*gain)(const Gains<double>& gains);
-};
-constexpr Bound kBounds[] = {
-    {"lambda", &GainBounds::lambda, [](const Gains<double>& g) { return g.heading.lambda; }},
-    {"mu", &GainBounds::mu, [](const Gains<double>& g) { return g.heading.mu; }},
-    {"epsilon", &GainBounds::epsilon, [](const Gains<double>& g) { return g.heading.epsilon; }},
-    {"speed_mu", &GainBounds::speed_mu, [](const Gains<double>& g) { return g.speed.mu; }},
-    {"speed_epsilon", &GainBounds::speed_epsilon,
-     [](const Gains<double>& g) { return g.speed.epsilon; }}};
-
 }  // namespace
 
 std::string advice_on(const std::string& constraint) {
@@ -230,14 +216,13 @@ std::vector<std::string> single_changes(const Gains<double>& nearest,
     changed.form = ReachingForm::kPaper;
     if (start_with(requested, changed)) changes.push_back("`form` \"paper\"");
   }
-  for (const Bound& bound : kBounds) {
-    if (!(requested.bounds.*bound.range)) continue;
+  for (const SearchedGain& gain : kSearchedGains) {
+    if (!(requested.bounds.*gain.bounds)) continue;
     TuneOptions wider = requested;
-    wider.bounds.*bound.range = std::nullopt;
+    wider.bounds.*gain.bounds = std::nullopt;
     const auto gains = start_with(wider, context);
     if (!gains) continue;
-    changes.push_back(
-        fmt::format("`bounds/{}` that contain {:.3g}", bound.key, bound.gain(*gains)));
+    changes.push_back(fmt::format("`bounds/{}` that contain {:.3g}", gain.key, gain.of(*gains)));
   }
   return changes;
 }
