@@ -11,25 +11,15 @@
 namespace awmr {
 namespace {
 
-/// Report of a requirement that `value` does not meet.
-ConstraintReport violated_limit(std::string name, double value, double limit, Sense sense) {
-  return {.name = std::move(name),
-          .value = value,
-          .limit = limit,
-          .margin = sense == Sense::kAtMost ? limit - value : value - limit,
-          .sense = sense};
-}
-
 void add_bounds(const Gains<double>& baseline, const GainBounds& bounds,
                 std::vector<ConstraintReport>& all) {
   for (const SearchedGain& searched : kSearchedGains) {
     const std::optional<Interval>& range = bounds.*searched.bounds;
     const double gain = searched.of(baseline);
     if (!range || range->contains(gain)) continue;
-    const bool is_below = gain < range->lo;
-    all.push_back(violated_limit(fmt::format("bounds/{}", searched.key), gain,
-                                 is_below ? range->lo : range->hi,
-                                 is_below ? Sense::kAtLeast : Sense::kAtMost));
+    const std::string name = fmt::format("bounds/{}", searched.key);
+    all.push_back(gain < range->lo ? at_least(name, gain, range->lo)
+                                   : at_most(name, gain, range->hi));
   }
 }
 
@@ -47,15 +37,14 @@ std::vector<ConstraintReport> violated_by_baseline(const Gains<double>& baseline
   // `activity_max` limits the control variation, as a multiple of its value with the baseline. The
   // baseline itself has the multiple 1, so it violates every limit below 1.
   if (requested.activity_max && *requested.activity_max < 1.0) {
-    all.push_back(violated_limit("activity_max", 1.0, *requested.activity_max, Sense::kAtMost));
+    all.push_back(at_most("activity_max", 1.0, *requested.activity_max));
   }
   const std::vector<GoalInMode> goals = by_mode(objective.goals(), objective.modes());
   for (std::size_t i = 0; i < goals.size(); ++i) {
     const double times_limits = objective.baseline().goal_quantile[i];
     if (goals[i].goal->is_soft || times_limits <= 1.0) continue;
-    all.push_back(
-        violated_limit(fmt::format("goal \"{}\", in multiples of its limits", goals[i].name()),
-                       times_limits, 1.0, Sense::kAtMost));
+    all.push_back(at_most(fmt::format("goal \"{}\", in multiples of its limits", goals[i].name()),
+                          times_limits, 1.0));
   }
   return all;
 }

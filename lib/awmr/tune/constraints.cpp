@@ -12,10 +12,9 @@
 #include "awmr/tune/steering_rate.h"
 
 namespace awmr {
-namespace {
 
 ConstraintReport at_most(std::string name, double value, double limit, std::string meaning,
-                         bool required = true) {
+                         bool required) {
   return {.name = std::move(name),
           .value = value,
           .limit = limit,
@@ -33,6 +32,8 @@ ConstraintReport at_least(std::string name, double value, double limit, std::str
           .sense = Sense::kAtLeast,
           .meaning = std::move(meaning)};
 }
+
+namespace {
 
 /// Slope of the yaw resistance with respect to the yaw rate, at the yaw rate r, divided by the yaw
 /// inertia I'z, 1/s: g3'(r)/I'z.

@@ -96,6 +96,11 @@ double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps,
 /// stronger of the two modes steering and differential.
 double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 
+/// The constraints value <= limit and value >= limit.
+ConstraintReport at_most(std::string name, double value, double limit, std::string meaning = {},
+                         bool required = true);
+ConstraintReport at_least(std::string name, double value, double limit, std::string meaning = {});
+
 /// Computes every constraint, as value <= limit or value >= limit (ConstraintReport::sense). zeta
 /// is a damping ratio, T_s the sample time:
 ///   T2 < T1 (paper)    eps/(2 mu) <= margin/lambda                                    [paper (95)]
