@@ -42,31 +42,24 @@ struct DrawnQuantity {
   ParameterId parameter;  ///< with the trial that identifies it
   void (*identify)(Plant<double>& drawn, const Plant<double>& identified);
 };
+template <auto member>
+void copy_identified(Plant<double>& drawn, const Plant<double>& identified) {
+  drawn.*member = identified.*member;
+}
 constexpr DrawnQuantity kDrawnQuantities[] = {
-    {"the yaw resistance g3", ParameterId::kYawAlpha,
-     [](Plant<double>& drawn, const Plant<double>& p) { drawn.yaw = p.yaw; }},
-    {"the surge resistance g1", ParameterId::kSurgeAlpha,
-     [](Plant<double>& drawn, const Plant<double>& p) { drawn.surge = p.surge; }},
-    {"the mass m'", ParameterId::kMassNorm,
-     [](Plant<double>& drawn, const Plant<double>& p) { drawn.mass_norm = p.mass_norm; }},
+    {"the yaw resistance g3", ParameterId::kYawAlpha, copy_identified<&Plant<double>::yaw>},
+    {"the surge resistance g1", ParameterId::kSurgeAlpha, copy_identified<&Plant<double>::surge>},
+    {"the mass m'", ParameterId::kMassNorm, copy_identified<&Plant<double>::mass_norm>},
     {"the yaw inertia I'z", ParameterId::kInertiaNorm,
-     [](Plant<double>& drawn, const Plant<double>& p) { drawn.inertia_norm = p.inertia_norm; }},
+     copy_identified<&Plant<double>::inertia_norm>},
     {"the sway resistance a_s", ParameterId::kSwayAlpha,
-     [](Plant<double>& drawn, const Plant<double>& p) { drawn.sway_alpha = p.sway_alpha; }},
+     copy_identified<&Plant<double>::sway_alpha>},
     {"the steering time constant T", ParameterId::kSteeringTimeConstant,
-     [](Plant<double>& drawn, const Plant<double>& p) {
-       drawn.steering_time_constant_s = p.steering_time_constant_s;
-     }},
+     copy_identified<&Plant<double>::steering_time_constant_s>},
     {"the motors' dead zone F'0", ParameterId::kWheelDeadZone,
-     [](Plant<double>& drawn, const Plant<double>& p) {
-       drawn.wheel_dead_zone = p.wheel_dead_zone;
-     }},
-    {"the back-EMF k_e", ParameterId::kBackEmf,
-     [](Plant<double>& drawn, const Plant<double>& p) {
-       drawn.back_emf_s_per_m = p.back_emf_s_per_m;
-     }},
-    {"the scrub moment", ParameterId::kYawCoulomb,
-     [](Plant<double>& drawn, const Plant<double>& p) { drawn.yaw_scrub_m = p.yaw_scrub_m; }}};
+     copy_identified<&Plant<double>::wheel_dead_zone>},
+    {"the back-EMF k_e", ParameterId::kBackEmf, copy_identified<&Plant<double>::back_emf_s_per_m>},
+    {"the scrub moment", ParameterId::kYawCoulomb, copy_identified<&Plant<double>::yaw_scrub_m>}};
 
 /// Returns the setting in which one quantity has its identified value in all vehicles.
 ObjectiveSetting with_identified(ObjectiveSetting setting, const DrawnQuantity& quantity) {
