@@ -1,5 +1,5 @@
 /// Gains of its own for each mode, if one mode holds the others back.
-#include "awmr/tune/own_gains.h"
+#include "awmr/tune/tuning_steps.h"
 
 #include <gtest/gtest.h>
 

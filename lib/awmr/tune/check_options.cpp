@@ -1,5 +1,3 @@
-#include "awmr/tune/check_options.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,6 +14,7 @@
 #include "awmr/model/observer_rate.h"
 #include "awmr/tune/goals.h"
 #include "awmr/tune/option_table.h"
+#include "awmr/tune/tuning_steps.h"
 
 namespace awmr {
 namespace {

@@ -1,11 +1,10 @@
-#include "awmr/tune/own_gains.h"
-
 #include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "awmr/model/gains_json.h"
 #include "awmr/tune/settling.h"
+#include "awmr/tune/tuning_steps.h"
 
 namespace awmr {
 namespace {

@@ -1,5 +1,3 @@
-#include "awmr/tune/search_gains.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,6 +22,7 @@
 #include "awmr/tune/settling.h"
 #include "awmr/tune/trade_off.h"
 #include "awmr/tune/tuning_context.h"
+#include "awmr/tune/tuning_steps.h"
 #include "awmr/tune/unsettled_cause.h"
 
 namespace awmr {

@@ -231,7 +231,7 @@ struct TuneOptions {
   std::vector<TuningGoal> goals = {};  ///< robust search only
   /// true: tune() returns one set of gains for all modes. false: if one mode alone may be much
   /// faster (Tuning::alone, Tuning::is_mode_better_alone), tune() also searches gains for each mode
-  /// (with_own_gains() in own_gains.h). Must be false if `mode` is present.
+  /// (with_own_gains() in tuning_steps.h). Must be false if `mode` is present.
   bool one_set = false;
   /// Called with the number of evaluated sets of gains and with the budget, which is
   /// global_evaluations + local_evaluations. The last stage of the search, on all draws, is not
@@ -587,9 +587,9 @@ Result<Scenario> held_out_scenario(const Model& model, std::optional<YawMode> mo
 ///   - runs diverge with all gains;
 ///   - no run settles with the tuned gains, not even without sensor noise.
 ///
-/// Errors (input): the model lacks a parameter; an option is invalid (check_options.h); the latency
-/// exceeds 20 samples; no wheel force is left for an observer; runs with the baseline break off;
-/// the evaluations would take more than 1e11 RK4 steps (some hours).
+/// Errors (input): the model lacks a parameter; an option is invalid; the latency exceeds 20
+/// samples; no wheel force is left for an observer; runs with the baseline break off; the
+/// evaluations would take more than 1e11 RK4 steps (some hours).
 Result<Tuning> tune(const Model& model, const TuneOptions& options);
 
 /// Content of gains.json.

@@ -1,14 +1,26 @@
-/// Separate gains for each mode of yaw control. Private to tune/.
+/// The steps of tune(), in order. Private to tune/.
 #pragma once
 
 #include <functional>
 #include <optional>
 
 #include "awmr/core/result.h"
+#include "awmr/tune/constraints.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/tune.h"
 
 namespace awmr {
+
+/// Checks the options of a search. Errors (input): all options that are out of range or contradict
+/// another option.
+Status check_options(const TuneOptions& options, const Vehicle& vehicle);
+
+/// Searches the gains on one setting, then evaluates them in the scenario `held_out`, which the
+/// search does not use. If runs need an observer to settle (TuneOptions::adds_observer), searches
+/// again with an observer. Errors: those of tune().
+Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
+                            const ConstraintContext& context, const TuneOptions& requested,
+                            const Scenario& held_out);
 
 /// Steps for one mode, in the setting of the search for all modes.
 struct ModeTuning {
