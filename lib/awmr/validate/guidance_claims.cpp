@@ -9,7 +9,7 @@
 
 #include "awmr/core/units.h"
 #include "awmr/simulate/scenario_file.h"
-#include "awmr/validate/heading_runs.h"
+#include "awmr/validate/claims.h"
 #include "awmr/validate/paper_scenarios.h"
 
 namespace awmr {

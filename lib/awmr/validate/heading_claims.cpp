@@ -9,7 +9,7 @@
 #include "awmr/core/units.h"
 #include "awmr/model/mode_gains.h"
 #include "awmr/model/paper_gains.h"
-#include "awmr/validate/heading_runs.h"
+#include "awmr/validate/claims.h"
 
 namespace awmr {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "awmr/validate/heading_runs.h"
+#include "awmr/validate/claims.h"
 
 namespace awmr {
 namespace {
