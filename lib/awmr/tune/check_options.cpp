@@ -124,12 +124,13 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
 }
 
 void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
+  const std::vector<std::string> known = run_figure_names();
   std::set<std::string> figures;
   for (const auto& [figure, most] : goal.at_most) {
-    if (!is_run_figure(figure) || !figures.insert(figure).second) {
+    if (std::ranges::find(known, figure) == known.end() || !figures.insert(figure).second) {
       faults.push_back({ErrorCode::kUnknownName, "",
                         fmt::format("goals: the metric {} is unknown or given twice; available: {}",
-                                    figure, fmt::join(run_figure_names(), ", "))});
+                                    figure, fmt::join(known, ", "))});
     }
     if (!allows(kGoalLimit, most)) {
       faults.push_back({ErrorCode::kOutOfRange, "",

@@ -79,11 +79,6 @@ std::vector<RunOutcome> outcomes_of(std::span<const ModeScore> scores,
   return outcomes;
 }
 
-bool is_run_figure(std::string_view name) {
-  return std::any_of(std::begin(kFiguresByName), std::end(kFiguresByName),
-                     [&](const RunFigure& figure) { return figure.name == name; });
-}
-
 std::vector<std::string> run_figure_names() {
   std::vector<std::string> names;
   for (const RunFigure& figure : kFiguresByName) names.emplace_back(figure.name);

@@ -23,7 +23,6 @@ namespace awmr {
 
 /// Number of metrics that goals can limit; run_figure_names() has their names in tune.json.
 inline constexpr std::size_t kRunFigures = 6;
-bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 
 /// The metrics of a run that goals can limit and the evaluation reports. The objective uses other
