@@ -116,37 +116,28 @@ inline constexpr NameTable<Injection, 40> kInjectionNames{
      {"stop", Injection::kStop},
      {"stop-in-noise", Injection::kStopInNoise}}};
 
+/// The help of each option describes it (pil_options.cpp).
 struct PilOptions {
   std::filesystem::path model;
   std::filesystem::path gains;
   std::filesystem::path scenario;
   YawMode mode = YawMode::kCombined;
   PilLink link = PilLink::kMemory;
-  std::optional<std::filesystem::path> port;  ///< serial port of a real board, with kUart
+  std::optional<std::filesystem::path> port;
   unsigned baud = 500000;
   EmitOptions emit;
-  /// Goal of the compiler. Absent: small size if the scenario has a timed path, obstacles, or at
-  /// least two optional parts (the position estimate counts as one); else few cycles.
   std::optional<Optimize> optimize;
-  /// Largest permitted number of clock cycles of a control step. Absent: 75 % of the sample time
-  /// with optional parts or the position estimate; otherwise 13,000 with resistance tables, 24,000
-  /// with powf.
   std::optional<unsigned> cycles_max;
-  unsigned flash_max = 20480;  ///< largest permitted use of flash, bytes
-  unsigned ram_max = 1024;     ///< largest permitted use of RAM, without the stack, bytes
-  /// Largest permitted difference of any signal, in SI units, between the chip's run and the same
-  /// run computed in float on the host. Absent: 0 with resistance tables, 1e-6 with powf.
-  std::optional<double> difference_max;
-  /// Largest permitted difference of the heading, deg, between the chip's run and the same run
-  /// computed in double on the host. The headings are compared at the same or a neighbouring
-  /// sample. Absent: 0.05, or 2 if obstacles are avoided or sensors simulated: one of the runs may
-  /// then change its path one sensor sample before the other.
+  unsigned flash_max = 20480;
+  unsigned ram_max = 1024;
+  std::optional<double> difference_max;  ///< in the SI unit of each signal
+  /// With avoided obstacles or simulated sensors, the default is larger, because one of the runs may
+  /// change its path one sensor sample before the other.
   std::optional<double> heading_max_deg;
   Injection injection = Injection::kNone;
-  unsigned hostile_steps = 6000;  ///< steps with hostile inputs after the scenario; 0: none
-  double line_noise = 0.0;  ///< fraction of bits flipped and of bytes lost, with kUart and no port
-  std::optional<std::filesystem::path> build_directory;  ///< directory of the firmware, kept after
-                                                         ///< the run; absent: a temporary one
+  unsigned hostile_steps = 6000;
+  double line_noise = 0.0;
+  std::optional<std::filesystem::path> build_directory;
   std::filesystem::path output;
 };
 

@@ -101,24 +101,7 @@ ConstraintReport at_most(std::string name, double value, double limit, std::stri
                          bool required = true);
 ConstraintReport at_least(std::string name, double value, double limit, std::string meaning = {});
 
-/// Computes every constraint, as value <= limit or value >= limit (ConstraintReport::sense). zeta
-/// is a damping ratio, T_s the sample time:
-///   T2 < T1 (paper)    eps/(2 mu) <= margin/lambda                                    [paper (95)]
-///   T2 < T1 (strict)   eps/mu     <= margin/lambda
-///   heading damping    smallest zeta of the sampled loop >= damping
-///   late damping       smallest zeta with latency and motor lag, if any, >= late_damping
-///   delay margin       smallest zeta with motor lag and a latency of twice the latency plus T_s
-///                      >= delayed_damping
-///   speed gain         (mu_s/eps_s) T_s <= 0.5
-///   speed lag          (mu_s/eps_s) (T + latency + T_s/2) <= 1/(4 damping^2)
-///   mu dominates       mu >= 0.2 g3(r)/I'z, r the highest yaw rate of the runs,
-///                      g3 of the examined vehicle, I'z nominal                        [paper (88)]
-///   mu_s dominates     mu_s >= 0.2 g1(u_d)/m', g1 of the examined vehicle,
-///                      m' nominal                                                    [paper (102)]
-///   noise gain         I'z lambda (mu/eps) sigma <= noise_share turning_authority_m(),
-///                      sigma: standard deviation of the heading noise
-///   steering rate      steering_rate_rms_degps() (steering_rate.h) <= the limit, if any
-/// The limits damping, late_damping, delayed_damping and noise_share are those of TuningLimits.
+/// Computes every constraint. ConstraintReport::meaning has its formula. T_s: sample time.
 ///
 /// Each constraint is reported for the vehicle (nominal or drawn) that is nearest to the limit, or
 /// violates it most. The controller always uses the nominal plant. On a drawn plant, the gain
@@ -145,6 +128,8 @@ ConstraintReport at_least(std::string name, double value, double limit, std::str
 /// heading. In the speed loop, k_s + L replaces k_s: law and observer together command -(k_s + L)
 /// e_u - k_s L integral(e_u) for the speed error e_u. To first order, the lag acts on the first
 /// term only.
+///
+/// mu dominates, mu_s dominates: g3 and g1 are those of the examined vehicle, I'z and m' nominal.
 ///
 /// Noise gain: I'z lambda mu/eps is the gain of the heading law from the heading psi to the yaw
 /// moment tau_turn.

@@ -169,11 +169,8 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider) {
-  // Limits the friction width, the range of yaw rates in which the fed-forward Coulomb friction
-  // rises to its full value. Both this friction and the corrective term mu S/epsilon grow with the
-  // sliding variable S (mu, epsilon: gains of the heading law). At the largest permitted width, the
-  // friction grows with S at this fraction of the corrective term's rate. With a smaller fraction,
-  // it would compensate for hardly any friction.
+  // At the largest width, the fed-forward friction grows with S at this fraction of the rate of the
+  // corrective term.
   constexpr double kMinFrictionShare = 0.1;
   HeadingGains<double>& heading = gains.heading;
   constexpr double kNarrowest = feed_forward_rest_speed<double>();

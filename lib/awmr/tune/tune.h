@@ -218,15 +218,10 @@ struct TuneOptions {
   GainBounds bounds;
   /// search of an observer; absent: see adds_observer
   std::optional<ObserverSearch> observer = {};
-  /// true: if runs need an observer to settle, the search is repeated with an observer that has the
-  /// defaults of ObserverSearch. Dry friction in yaw is the usual cause. The search is repeated if
-  /// two conditions hold:
-  ///   - fewer than 95 % of the runs settle with the tuned gains (if no gains meet the limits: with
-  ///     the gains nearest to the limits);
-  ///   - in simulations, an observer lets the runs of a scenario and mode settle
-  ///     (SettlingSearch::observer_helps() in settling.h).
-  /// The result with the observer is kept if it increases the share of settled runs by at least
-  /// 0.05. false: no observer is tuned. Not used if `observer` is present.
+  /// true: if runs need an observer to settle, usually because of dry friction in yaw, the search
+  /// is repeated with an observer that has the defaults of ObserverSearch (with_needed_observer()
+  /// in search_gains.cpp has the conditions). false: no observer is tuned. Not used if `observer`
+  /// is present.
   bool adds_observer = true;
   std::vector<TuningGoal> goals = {};  ///< robust search only
   /// true: tune() returns one set of gains for all modes. false: if one mode alone may be much
@@ -504,13 +499,8 @@ struct Tuning {
   /// Number of evaluated sets of gains whose runs were simulated. The other sets violate a
   /// constraint.
   int simulated = 0;
-  /// Ranges of mu and of mu_s in which the gains are about equally good: the gains meet every
-  /// constraint, and the objective is hardly worse than the best one. Both objectives are those on
-  /// the drawn vehicles of the search. settle() computes both ranges:
-  ///   - `mu_as_good`: mu changes at constant mu/epsilon. The objective is at most kIndifferent/2
-  ///     worse than the best. The tuned gains have the smallest mu of this range.
-  ///   - `speed_mu_as_good`: mu_s changes at constant mu_s/epsilon_s; mu and epsilon are those of
-  ///     the tuned gains. The objective is at most kIndifferent worse than the best.
+  /// Ranges of mu and of mu_s in which the gains are about equally good (settle() in sensitivity.h).
+  /// The tuned gains have the lower ends of these ranges.
   Interval mu_as_good, speed_mu_as_good;
   std::vector<ActiveConstraint> active;
   std::string arithmetic;  ///< rounding of the runs: BatchArithmetic::rounding
