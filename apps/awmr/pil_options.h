@@ -116,7 +116,7 @@ inline constexpr NameTable<Injection, 40> kInjectionNames{
      {"stop", Injection::kStop},
      {"stop-in-noise", Injection::kStopInNoise}}};
 
-/// The help of each option describes it (pil_options.cpp).
+/// The help of each option describes it (pil_options.cpp); `output` is -o.
 struct PilOptions {
   std::filesystem::path model;
   std::filesystem::path gains;
@@ -128,11 +128,11 @@ struct PilOptions {
   EmitOptions emit;
   std::optional<Optimize> optimize;
   std::optional<unsigned> cycles_max;
-  unsigned flash_max = 20480;
-  unsigned ram_max = 1024;
+  unsigned flash_max = 20480;            ///< bytes
+  unsigned ram_max = 1024;               ///< bytes
   std::optional<double> difference_max;  ///< in the SI unit of each signal
-  /// With avoided obstacles or simulated sensors, the default is larger, because one of the runs may
-  /// change its path one sensor sample before the other.
+  /// With avoided obstacles or simulated sensors, the default is larger, because one of the runs
+  /// may change its path one sensor sample before the other.
   std::optional<double> heading_max_deg;
   Injection injection = Injection::kNone;
   unsigned hostile_steps = 6000;

@@ -48,8 +48,12 @@ TEST(Interrupt, LeavesTheFilesOfASmallerComparison) {
   EXPECT_NE(json.exit_code, 0);
   EXPECT_EQ(json.out + json.err, "");
   // A part is not written, because it must be run again.
-  const auto part =
-      in_source("timeout --signal=INT 1 " + compare("50000", "shard") + " --threads 1 --shard 1/2");
+  ProcessResult part;
+  for (const char* seconds : {"1", "2", "4", "8", "16"}) {
+    part = in_source(fmt::format("timeout --signal=INT {} {} --threads 1 --shard 1/2", seconds,
+                                 compare("50000", "shard")));
+    if (!part.err.empty()) break;
+  }
   EXPECT_NE(part.exit_code, 0);
   EXPECT_NE(part.err.find("nothing is written"), std::string::npos) << part.err;
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "shard"));

@@ -92,6 +92,19 @@ TEST_F(JsonObjectTest, AReaderOfAnObjectRejectsItsUnknownKeys) {
               ElementsAre("a.json:/e/1/x", "a.json:/p/k", "a.json:/p/y", "a.json:/missing"));
 }
 
+TEST_F(JsonObjectTest, AReaderWithoutAValueRejectsUnknownKeys) {
+  double sum = 0.0;
+  const auto read = [&](JsonObject& json) { sum += json.number("k"); };
+  JsonObject object = root(R"({"o": {"k": 1, "x": 0}, "e": [{"k": 2}, {"k": 3, "x": 0}]})");
+  object.object("o", read);
+  object.optional_object("absent", read);
+  object.objects("e", read);
+  EXPECT_EQ(sum, 6.0);
+  std::vector<std::string> places;
+  for (const Fault& fault : faults_) places.push_back(fault.place);
+  EXPECT_THAT(places, ElementsAre("a.json:/o/x", "a.json:/e/1/x"));
+}
+
 TEST_F(JsonObjectTest, MissingKeysAreAllNamed) {
   JsonObject object = root("{}");
   EXPECT_TRUE(std::isnan(object.number("a")));

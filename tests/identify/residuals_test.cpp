@@ -180,6 +180,7 @@ INSTANTIATE_TEST_SUITE_P(
         TermCase{"DelayAndSmoothing",
                  {{free_term(FreeQuantity::Kind::kSensorDelay, LogChannel::kSpeed), 0.023},
                   {smoothing_of(LogChannel::kSpeed), 0.0017}}},
+        TermCase{"AxleOffset", {{extra_force(ExtraForce::kAxleOffset), 0.3}}},
         TermCase{"Antenna",
                  {{free_term(FreeQuantity::Kind::kPositionAhead), 0.3},
                   {free_term(FreeQuantity::Kind::kPositionLeft), -0.2}}},

@@ -101,7 +101,9 @@ ConstraintReport at_most(std::string name, double value, double limit, std::stri
                          bool required = true);
 ConstraintReport at_least(std::string name, double value, double limit, std::string meaning = {});
 
-/// Computes every constraint. ConstraintReport::meaning has its formula. T_s: sample time.
+/// Computes every constraint. ConstraintReport::meaning has its formula or description. T_s: sample
+/// time. Late damping and delay margin exist only with latency or motor lag, the steering rate only
+/// with a limit and a mode that steers.
 ///
 /// Each constraint is reported for the vehicle (nominal or drawn) that is nearest to the limit, or
 /// violates it most. The controller always uses the nominal plant. On a drawn plant, the gain

@@ -13,7 +13,6 @@
 #include <array>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "awmr/tune/objective.h"

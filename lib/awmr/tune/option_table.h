@@ -70,7 +70,7 @@ struct SearchedGain {
   std::optional<Interval> GainBounds::*bounds;
   double (*of)(const Gains<double>& gains);
 };
-/// In the order of a Point (problem.h).
+/// In the order of a Point (problem.h), which SearchSpace::gains_at() repeats.
 inline constexpr SearchedGain kSearchedGains[] = {
     {"lambda", &GainBounds::lambda, [](const Gains<double>& g) { return g.heading.lambda; }},
     {"mu", &GainBounds::mu, [](const Gains<double>& g) { return g.heading.mu; }},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <ranges>
 #include <utility>
 
@@ -32,6 +33,8 @@ void bound_around(std::span<const Gains<double>> gains, GainBounds& bounds) {
     bound = Interval{least / kBoundFactor, largest * kBoundFactor};
   }
 }
+
+static_assert(std::size(kSearchedGains) + 1 == kMaxDimensions);  // the last one is the observer
 
 SearchSpace::SearchSpace(const TuneOptions& options) : observer_(options.observer) {
   range_.back() = observer_ ? observer_->bandwidth_radps : Interval{1.0, 1.0};

@@ -169,8 +169,7 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider) {
-  // At the largest width, the fed-forward friction grows with S at this fraction of the rate of the
-  // corrective term.
+  // A tenth, in the upper bound of the width (see with_friction_width() in the header).
   constexpr double kMinFrictionShare = 0.1;
   HeadingGains<double>& heading = gains.heading;
   constexpr double kNarrowest = feed_forward_rest_speed<double>();

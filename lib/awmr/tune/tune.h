@@ -499,8 +499,8 @@ struct Tuning {
   /// Number of evaluated sets of gains whose runs were simulated. The other sets violate a
   /// constraint.
   int simulated = 0;
-  /// Ranges of mu and of mu_s in which the gains are about equally good (settle() in sensitivity.h).
-  /// The tuned gains have the lower ends of these ranges.
+  /// Ranges of mu and of mu_s in which the gains are about equally good (settle() in
+  /// sensitivity.h). The tuned gains have the lower ends of these ranges.
   Interval mu_as_good, speed_mu_as_good;
   std::vector<ActiveConstraint> active;
   std::string arithmetic;  ///< rounding of the runs: BatchArithmetic::rounding

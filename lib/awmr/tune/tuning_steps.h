@@ -1,10 +1,14 @@
-/// The steps of tune(), in order. Private to tune/.
+/// Steps of tune() that have files of their own, in order: check of the options, search of the
+/// gains, gains by mode. Private to tune/.
 #pragma once
 
 #include <functional>
 #include <optional>
 
 #include "awmr/core/result.h"
+#include "awmr/model/model.h"
+#include "awmr/model/vehicle.h"
+#include "awmr/simulate/scenario.h"
 #include "awmr/tune/constraints.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/tune.h"

@@ -38,8 +38,8 @@ LogFitOptions with_back_emf_as_in(const FamilyFit& fit, LogFitOptions options);
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms);
 
 /// True if `with`, the fit that estimates the back-EMF k_e, is better than `without`, the fit that
-/// does not: `with` identifies a k_e that differs significantly from 0, and its AIC is lower by more
-/// than kFamilyAicThreshold. False if a channel of `with` still has a large drift
+/// does not: `with` identifies a k_e that differs significantly from 0, and its AIC is lower by
+/// more than kFamilyAicThreshold. False if a channel of `with` still has a large drift
 /// (ChannelNoise::overwhelms_sensor()): something other than back-EMF, which the model lacks too,
 /// may then cause the difference of AIC.
 bool shows_back_emf(const FamilyFit& with, const FamilyFit& without);

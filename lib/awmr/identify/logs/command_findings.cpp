@@ -1,10 +1,12 @@
 #include "awmr/identify/logs/term_findings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "awmr/core/containers.h"
 #include "awmr/core/option_text.h"
@@ -105,17 +107,26 @@ std::vector<Finding> compass_findings(const LogFit& fit, const std::string& file
 
 /// Finding `position-sensor` about the antenna or marker (FreeQuantity::Kind::kPositionAhead).
 std::vector<Finding> position_findings(const LogFit& fit, const std::string& file) {
-  const Identified ahead = identified(fit, Kind::kPositionAhead).value_or(Identified{});
-  const Identified left = identified(fit, Kind::kPositionLeft).value_or(Identified{});
-  if (!is_significant(length_of(ahead, left))) return {};
-  return {
-      {file, 0, Severity::kWarning, "position-sensor",
-       fmt::format("x_m and y_m are the position of a point (an antenna or a marker) {:.3f} +- "
-                   "{:.3f} m {} and {:.3f} +- {:.3f} m to the {} of the centre of gravity. The "
-                   "fit compensates for this, but an autopilot that follows a path with these "
-                   "columns leads this point along the path",
-                   std::abs(ahead.value), ahead.error, ahead.value < 0.0 ? "behind" : "ahead of",
-                   std::abs(left.value), left.error, left.value < 0.0 ? "right" : "left")}};
+  const auto ahead = identified(fit, Kind::kPositionAhead);
+  const auto left = identified(fit, Kind::kPositionLeft);
+  if (!is_significant(length_of(ahead.value_or(Identified{}), left.value_or(Identified{})))) {
+    return {};
+  }
+  std::vector<std::string> places;
+  for (const auto& [distance, positive, negative] :
+       {std::tuple(ahead, "ahead of", "behind"),
+        std::tuple(left, "to the left of", "to the right of")}) {
+    if (!distance) continue;
+    places.push_back(fmt::format("{:.3f} +- {:.3f} m {}", std::abs(distance->value),
+                                 distance->error, distance->value < 0.0 ? negative : positive));
+  }
+  const bool has_axle = has(fit.quantities, ExtraForce::kAxleOffset);
+  return {{file, 0, Severity::kWarning, "position-sensor",
+           fmt::format("x_m and y_m are the position of a point (an antenna or a marker) {} the "
+                       "{}. The fit compensates for this, but an autopilot that follows a path "
+                       "with these columns leads this point along the path",
+                       fmt::join(places, " and "),
+                       has_axle ? "middle of the axle" : "centre of gravity")}};
 }
 
 std::string sensor_delay_text(const FoundTerm& delay, const LogFit&) {

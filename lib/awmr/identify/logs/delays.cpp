@@ -23,7 +23,9 @@ std::vector<CandidateTerm> candidate_terms(const LogProblem& problem, const Sear
     if (channels[i].may_be_zero() && !(value > 0.0)) continue;
     if (channels[i].kind == FreeQuantity::Kind::kForceExponent && !(value < 0.0)) continue;
     const double significance = std::abs(value) / tests[i].noise_error;
-    if (significance > kWorthATry) found.push_back({channels[i], value, significance});
+    if (significance > kWorthATry) {
+      found.push_back({channels[i], value, significance, tests[i].gain});
+    }
   }
   std::ranges::stable_sort(found, std::greater{}, &CandidateTerm::significance);
   return found;
@@ -104,8 +106,11 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
        {std::pair(extra_force(ExtraForce::kSlopeX), extra_force(ExtraForce::kSlopeY)),
         std::pair(free_term(Kind::kPositionAhead), free_term(Kind::kPositionLeft)),
         std::pair(free_term(Kind::kCompassSin), free_term(Kind::kCompassCos))}) {
-    if (candidate.quantity.name() == one.name()) terms.push_back({other, 0.0});
-    if (candidate.quantity.name() == other.name()) terms.push_back({one, 0.0});
+    const std::string name = candidate.quantity.name();
+    for (const auto& [part, companion] : {std::pair(&one, &other), std::pair(&other, &one)}) {
+      const bool is_new = !place_of(problem.model.quantities, companion->name());
+      if (name == part->name() && is_new) terms.push_back({*companion, 0.0});
+    }
   }
   if (candidate.quantity.kind == Kind::kForceSaturation) {
     const FreeQuantity sharpness = free_term(Kind::kSaturationSharpness);
@@ -154,7 +159,7 @@ std::optional<NoiseIteration> consider_smoothing(const NoiseIteration& settled,
   std::optional<NoiseIteration> first;
   for (const bool is_mean : {false, true}) {
     std::vector<FreeTerm> smoothing;
-    for (const auto& [quantity, value, significance] : terms) {
+    for (const auto& [quantity, value, significance, gain] : terms) {
       if (quantity.kind != Kind::kSmoothing) continue;
       if (significance < kComparable * terms.front().significance) break;
       smoothing.push_back({smoothing_of(quantity.channel, is_mean), value});

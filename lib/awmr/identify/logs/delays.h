@@ -14,6 +14,7 @@ struct CandidateTerm {
   FreeQuantity quantity;
   double value;
   double significance;  ///< |value| over its standard error by the noise model
+  double gain;          ///< ScoreTest::gain
 };
 
 /// The terms of further_terms() to which a score test gives a value of more than three standard

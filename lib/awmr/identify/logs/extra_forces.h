@@ -1,6 +1,7 @@
 /// Forces that a log fit can find, but that the model does not contain: Stribeck friction, the
-/// slope of the ground, additional resistance in turns or backward, a centre of gravity ahead of the
-/// axle, and motors whose force differs when they brake or drive backward. Private to identify/.
+/// slope of the ground, additional resistance in turns or backward, a centre of gravity ahead of
+/// the axle, and motors whose force differs when they brake or drive backward. Private to
+/// identify/.
 ///
 /// Stribeck friction is the part of the friction at low speed that exceeds the Coulomb friction c.
 /// Its size is s and its speed scale w_s. The resistance g(w) at the speed or yaw rate w becomes

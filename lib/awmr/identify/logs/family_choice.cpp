@@ -272,13 +272,15 @@ std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const 
   return again;
 }
 
-/// A fit of other families can be worse than `result.best` only because it lacks a delay, a lag, a
+/// A fit of other families may be worse than `result.best` only because it lacks a delay, a lag, a
 /// force or an error of command or sensor, whose effect the resistance of `result.best` imitates.
-/// If the score tests predict that such a term makes another fit better than the best one, searches
-/// the terms of that fit, and keeps it if it really becomes better. (Effects that no term describes
-/// give both fits the same predictions, so only the difference of the predictions counts.)
+/// If the score tests predict that such a term lowers the AIC of another fit by kFamilyAicThreshold
+/// below that of the best one, searches the terms of that fit. (Effects that no term describes give
+/// both fits the same predictions, so only the difference of the predictions counts.) The new fit
+/// becomes the best one if its AIC is lower; with power laws, if it is at most `lead` higher; in
+/// place of power laws, if it is lower by `lead`.
 void search_terms_of_others(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                            BestFamily& result) {
+                            double lead, BestFamily& result) {
   if (!result.best.fit.usable || result.is_out_of_time || is_over(power_law)) return;
   const auto predicted = [&](const FamilyFit& other) {
     const double gain = other.fit.further_term_gain - result.best.fit.further_term_gain;
@@ -290,9 +292,17 @@ void search_terms_of_others(const std::vector<DrivingLog>& logs, const LogFitOpt
   LogFitOptions options = from_optimum(other->options, *other);
   options.finds_delays = true;
   FamilyFit own = fit_with(logs, std::move(options), other->surge, other->yaw);
-  if (!(aic_lead(own.fit, result.best.fit) > kFamilyAicThreshold)) return;
-  std::swap(own, result.best);
-  *other = std::move(own);
+  if (is_over(power_law)) {
+    result.is_out_of_time = true;
+    result.findings.push_back(not_finished(
+        logs.front().file, "it had looked for terms of the other families", result.best));
+  }
+  if (aic_lead(own.fit, other->fit) > 0.0) *other = std::move(own);
+  const auto is_power_law = [](const FamilyFit& fit) {
+    return fit.surge == Family::kPower && fit.yaw == Family::kPower;
+  };
+  const double needed = is_power_law(*other) ? -lead : is_power_law(result.best) ? lead : 0.0;
+  if (aic_lead(other->fit, result.best.fit) > needed) std::swap(*other, result.best);
 }
 
 /// Findings of undecided() for each axis, compared with the best alternative family of this axis.
@@ -397,7 +407,7 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
     const auto others = to_compare_again(winner->second, of_yaw, result.best, result.others);
     if (!others.empty()) comparison.compare(of_yaw, others);
   }
-  search_terms_of_others(logs, power_law, result);
+  search_terms_of_others(logs, power_law, contest.lead, result);
   const std::string& file = logs.front().file;
   for (Finding& finding : undecided_axes(file, result)) {
     result.findings.push_back(std::move(finding));

@@ -94,7 +94,7 @@ void begin_near(const std::vector<DrivingLog>& logs, const FamilyFit& inner, Fam
 
 /// Resets the sway resistance to `guess` if the fit `inner` could not determine it. Its value may
 /// then be near 0 or so large that the motion no longer depends on it, and a search that starts
-/// there would not leave this value.
+/// there would not leave this value. (fit_from() also starts at the old value.)
 void reset_undetermined_sway(const LogFit& inner, double guess, ParameterValues<double>& values) {
   const auto i = place_of(inner.quantities, ParameterId::kSwayAlpha);
   if (i && !inner.refusal_reason[*i].empty()) values[at(ParameterId::kSwayAlpha)] = guess;

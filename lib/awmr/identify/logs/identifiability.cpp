@@ -66,8 +66,8 @@ bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
   return coordinate <= bounds.lo || coordinate >= bounds.hi;
 }
 
-/// Variances of the coordinates by the scatter of the scores: the diagonal of V (identifiability()),
-/// with C = `covariance`.
+/// Variances of the coordinates by the scatter of the scores: the diagonal of V
+/// (identifiability()), with C = `covariance`.
 Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
                                      const std::vector<Eigen::VectorXd>& scores) {
   Eigen::VectorXd variances = Eigen::VectorXd::Zero(covariance.rows());

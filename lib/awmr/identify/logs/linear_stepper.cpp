@@ -30,6 +30,7 @@ constexpr RateOfParameter kActs[] = {
     {ParameterId::kSwayAlpha, &DrivenSlopes::v},
     {ParameterId::kMassNorm, &DrivenSlopes::u},
     {ParameterId::kMassNorm, &DrivenSlopes::v},
+    {ParameterId::kMassNorm, &DrivenSlopes::r},
     {ParameterId::kInertiaNorm, &DrivenSlopes::r},
     {ParameterId::kSteeringTimeConstant, &DrivenSlopes::steering},
     {ParameterId::kWheelDeadZone, &DrivenSlopes::u},

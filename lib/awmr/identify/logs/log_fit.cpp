@@ -66,7 +66,7 @@ std::vector<double> candidate_gains(const LogProblem& problem, const SearchPoint
 double further_term_gain(const LogProblem& problem, const SearchPoint& point) {
   double most = 0.0;
   for (const CandidateTerm& term : candidate_terms(problem, point)) {
-    most = std::max(most, term.significance * term.significance);
+    most = std::max(most, term.gain);
   }
   return most;
 }

@@ -40,7 +40,7 @@ struct LogFit {
   /// test predicts for a fit that also estimates this term.
   std::vector<double> candidate_gain;
   /// Largest decrease of -2 ln L, >= 0, that a score test predicts for a fit with one more delay,
-  /// lag, force or error of command or sensor (further_terms()).
+  /// lag, force or error of command or sensor (candidate_terms() in delays.h).
   double further_term_gain = 0.0;
   double widened = 1.0;    ///< largest factor by which a standard error was raised
   EstimatorReport report;  ///< report for /estimates of model.json
@@ -80,7 +80,7 @@ struct LogFit {
   double error_of(std::size_t i) const {
     return std::sqrt(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
   }
-  /// True if quantity i, a delay, a lag, or an error of commands or sensors, differs significantly
+  /// True if quantity i (delay, lag, back-EMF, error of commands or sensors) differs significantly
   /// from 0: by at least two standard errors, and by at least 1e-3 in its SI unit (1e-6 s^2 for
   /// smoothing). Precondition: the coordinate of the quantity is its value, not a logarithm.
   bool is_significant(std::size_t i) const {

@@ -153,7 +153,8 @@ FreeQuantity extra_force(ExtraForce force) {
   FreeQuantity quantity{.kind = FreeQuantity::Kind::kExtraForce, .force = force};
   if (force == ExtraForce::kSlopeX || force == ExtraForce::kSlopeY) {
     quantity.large_change = 0.5;
-  } else if (quantity.is_force_excess() || force == ExtraForce::kBackwardDrag) {
+  } else if (quantity.is_force_excess() || force == ExtraForce::kBackwardDrag ||
+             force == ExtraForce::kAxleOffset) {
     quantity.large_change = 0.1;
   } else if (!quantity.is_form()) {
     quantity.large_change = 0.2;

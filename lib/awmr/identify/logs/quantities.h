@@ -89,9 +89,9 @@ struct FreeQuantity {
     /// the yaw rate. The sensor reads u - y_s r. For the speed of a left wheel, y_s is half of the
     /// track width; for a right wheel, minus half of it.
     kSpeedOffset,
-    /// Place of the antenna or marker whose position x_m and y_m are: x_a, m, ahead of the centre of
-    /// gravity, and (kPositionLeft) y_a, m, to the left of it. At the position (x, y) and the
-    /// heading psi of the vehicle, the columns read
+    /// Place of the antenna or marker whose position x_m and y_m are: x_a, m, ahead of the centre
+    /// of gravity (with kAxleOffset: of the middle of the axle), and (kPositionLeft) y_a, m, to the
+    /// left of it. At the position (x, y) and the heading psi of the vehicle, the columns read
     ///
     ///     x + x_a cos psi - y_a sin psi,   y + x_a sin psi + y_a cos psi
     kPositionAhead,
