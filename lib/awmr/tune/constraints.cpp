@@ -159,7 +159,6 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
   const SpeedLoop speed = speed_loop(gains, context, plant);
   const bool strict = context.form == ReachingForm::kStrict;
   return {
-      // [paper (95)]
       at_most("T2 < T1 (paper)", reaching_s, context.margin * sliding_s,
               "epsilon/(2 mu) <= margin/lambda (in s; lambda, mu, epsilon: gains of the heading "
               "law): the square of the sliding variable S decays faster than the heading error",
@@ -176,13 +175,11 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
           "between samples and with the servo, >= limits/damping of tune.json"),
       speed_gain(speed, context.sample_time_s),
       speed_lag(speed, context.limits.damping),
-      // [paper (88)]
       at_least("mu dominates", gains.heading.mu,
                kUnmodelledShare * plant.yaw(context.fastest_radps) / known.inertia_norm,
                fmt::format("gain mu >= 20 % of g3({:.3g} deg/s)/I'z, rad/s^2, so that the heading "
                            "law overcomes errors of the yaw resistance g3",
                            degrees(context.fastest_radps))),
-      // [paper (102)]
       at_least("mu_s dominates", gains.speed.mu,
                kUnmodelledShare * plant.surge(context.speed_mps) / known.mass_norm,
                "gain mu_s >= 20 % of g1(u_d)/m', m/s^2, so that the speed law overcomes errors of "

@@ -110,7 +110,8 @@ ConstraintReport at_least(std::string name, double value, double limit, std::str
 /// mu_s/eps_s of the speed loop is therefore multiplied by the ratio m' nominal/drawn. The gain of
 /// the heading loop is multiplied by the ratio I'z nominal/drawn (SampledHeadingLoop::input_gain).
 ///
-/// T2 < T1: both forms are reported; only ConstraintContext::form is required.
+/// T2 < T1 [paper (95)]: both forms are reported; only ConstraintContext::form is required.
+/// mu dominates the disturbance [paper (88)], mu_s that of the speed loop [paper (102)].
 ///
 /// Heading damping is the smallest over the vehicle's modes and the yaw rates of kRateShares. It
 /// depends on the rate through the slope of the yaw resistance g3. For the nominal plant, late
