@@ -75,13 +75,18 @@ bool is_far_worse(const Multistart& search, const BestSoFar& best) {
 LogProblem rough_problem(const LogProblem& problem) {
   constexpr std::size_t kParts = 12;
   constexpr double kPart_s = 2.5;
+  // At low rates, parts of kPart_s would have hardly more readings than unknowns (the initial state
+  // of each part), so that the errors of every model would be as small as those of the right one.
+  constexpr double kRowsOfPart = 50.0;
   LogProblem rough = problem;
   rough.model.longest_step_s = rough_step_s(problem.model);
   rough.threads = 1;  // one thread each, because the searches themselves run in parallel
   rough.ends_at_limit = false;
   std::vector<FitWindow> parts;
   for (const std::size_t i : spread(problem.windows.size(), kParts)) {
-    std::ranges::move(parts_of(problem.windows[i], kPart_s), std::back_inserter(parts));
+    const FitWindow& window = problem.windows[i];
+    const double part_s = std::max(kPart_s, kRowsOfPart * window.rows.log->median_step_s());
+    std::ranges::move(parts_of(window, part_s), std::back_inserter(parts));
   }
   rough.windows.clear();
   for (const std::size_t i : spread(parts.size(), kParts)) rough.windows.push_back(parts[i]);

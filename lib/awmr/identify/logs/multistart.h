@@ -34,8 +34,8 @@ struct Multistart {
 ///     of its quick searches is lower by less than 5.
 bool is_far_worse(const Multistart& search, const BestSoFar& best);
 
-/// Returns a smaller problem for quick searches: up to twelve parts of at most 2.5 s, spread over
-/// all logs, with longer integration steps.
+/// Returns a smaller problem for quick searches: up to twelve parts of at most 2.5 s (or 50 rows,
+/// if they last longer), spread over all logs, with longer integration steps.
 LogProblem rough_problem(const LogProblem& problem);
 
 /// A quick search ends when a step changes the cost by less than this fraction of the cost. It only
