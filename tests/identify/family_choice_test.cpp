@@ -437,9 +437,9 @@ TEST(Families, AreComparedInMostRowsWithoutAFewLargeErrors) {
   }
   const LogFit a = fit_with_errors(with_outliers), b = fit_with_errors(larger);
   EXPECT_LT(aic_lead(a, b), -1000.0);
-  EXPECT_GT(aic_lead(a, b, kMostRows), 100.0);
-  EXPECT_EQ(aic_lead(a, b, kMostRows), -aic_lead(b, a, kMostRows));
-  EXPECT_EQ(aic_lead(a, LogFit{}, kMostRows), std::numeric_limits<double>::infinity());
+  EXPECT_GT(aic_lead(a, b, kMaxSquaredInnovation), 100.0);
+  EXPECT_EQ(aic_lead(a, b, kMaxSquaredInnovation), -aic_lead(b, a, kMaxSquaredInnovation));
+  EXPECT_EQ(aic_lead(a, LogFit{}, kMaxSquaredInnovation), std::numeric_limits<double>::infinity());
 }
 
 TEST(Windows, PartsContainEverySampleOnce) {

@@ -56,12 +56,6 @@ Identification identified(DrivingLog log, const IdentifyOptions& options = {}) {
   return *identify(robot(), data, options, {});
 }
 
-void expect_estimated(const Identification& result, const std::string& name, double truth) {
-  const auto found = estimated(result, name);
-  ASSERT_TRUE(found && found->std_error) << name;
-  EXPECT_NEAR(found->value, truth, 4.5 * *found->std_error) << name;
-}
-
 TEST(ForceLog, FindsASlope) {
   const Truth& t = kTruths[1];
   ExtraForces slope;

@@ -43,9 +43,7 @@ TEST(LateLog, SeparatesASteeringDeadTimeFromServoLag) {
   data.logs = {with_late_steering(precise_drive(kTruths[1]), kRows)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
-  const auto delay = estimated(*result, "steering.delay_s");
-  ASSERT_TRUE(delay && delay->std_error);
-  EXPECT_NEAR(delay->value, kStep_s * kRows, 4.5 * *delay->std_error);
+  expect_estimated(*result, "steering.delay_s", kStep_s * kRows);
   EXPECT_TRUE(has_finding(*result, "steering-delay"));
   expect_recovered(*result, ParameterId::kSteeringTimeConstant,
                    plant(kTruths[1]).steering_time_constant_s, 4.5);
@@ -67,9 +65,7 @@ TEST_P(LateLogs, FindsLateStampsOfTheSteeringAlone) {
   data.logs = {with_late_steering_stamps(precise_drive(kTruths[1]), kRows)};
   const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
-  const auto delay = estimated(*result, "steering.delay_s");
-  ASSERT_TRUE(delay && delay->std_error);
-  EXPECT_NEAR(delay->value, -kStep_s * kRows, 4.5 * *delay->std_error);
+  expect_estimated(*result, "steering.delay_s", -kStep_s * kRows);
   EXPECT_TRUE(has_finding(*result, "steering-delay"));
   EXPECT_FALSE(has_finding(*result, "actuator-lag", ""));
   expect_recovered(*result, ParameterId::kSteeringTimeConstant,
@@ -130,9 +126,7 @@ TEST(LateLog, FindsACommandDelayOfAFractionOfARow) {
                                   kTruths[1], 4, 9)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
-  const auto delay = estimated(*result, "input_delay_s");
-  ASSERT_TRUE(delay && delay->std_error);
-  EXPECT_NEAR(delay->value, 0.09, 4.5 * *delay->std_error);
+  expect_estimated(*result, "input_delay_s", 0.09);
   EXPECT_FALSE(has_finding(*result, "sensor-delay"));
   EXPECT_FALSE(has_finding(*result, "sensor-lag"));
   expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
@@ -183,9 +177,7 @@ TEST_P(SmoothedSpeed, IsAllowedFor) {
   data.logs = {with_smoothed(precise_drive(t), LogChannel::kSpeed, kLag_s, GetParam())};
   const auto result = identify(robot(), data, options_of_instance(), {});
   ASSERT_TRUE(result);
-  const auto lag = estimated(*result, "lag.speed_mps");
-  ASSERT_TRUE(lag && lag->std_error);
-  EXPECT_NEAR(lag->value, kLag_s, 4.5 * *lag->std_error);
+  expect_estimated(*result, "lag.speed_mps", kLag_s);
   EXPECT_TRUE(has_finding(*result, "sensor-lag"));
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
 }
@@ -223,9 +215,7 @@ TEST_P(SpeedOfSecondOrder, IsAllowedFor) {
   data.logs = {with_speed_of_second_order(precise_drive(t), kLag_s, GetParam())};
   const auto result = identify(robot(), data, options_of_instance(), {});
   ASSERT_TRUE(result);
-  const auto lag = estimated(*result, "lag.speed_mps");
-  ASSERT_TRUE(lag && lag->std_error);
-  EXPECT_NEAR(lag->value, kLag_s, 4.5 * *lag->std_error);
+  expect_estimated(*result, "lag.speed_mps", kLag_s);
   EXPECT_TRUE(has_finding(*result, "sensor-lag", "second order"));
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
 }
@@ -244,9 +234,7 @@ TEST_P(LateLogs, AllowsForASmoothedCompassWithoutAGyroscope) {
   data.logs = {std::move(log)};
   const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
-  const auto lag = estimated(*result, "lag.heading_rad");
-  ASSERT_TRUE(lag && lag->std_error);
-  EXPECT_NEAR(lag->value, kLag_s, 4.5 * *lag->std_error);
+  expect_estimated(*result, "lag.heading_rad", kLag_s);
   EXPECT_TRUE(has_finding(*result, "sensor-lag", "heading_rad"));
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
 }
@@ -339,9 +327,7 @@ TEST(LateLog, FindsTheDeviationOfACompass) {
   ASSERT_TRUE(result);
   for (const auto& [name, truth] :
        {std::pair("compass.sin_rad", kSin_rad), std::pair("compass.cos_rad", kCos_rad)}) {
-    const auto found = estimated(*result, name);
-    ASSERT_TRUE(found && found->std_error) << name;
-    EXPECT_NEAR(found->value, truth, 4.5 * *found->std_error) << name;
+    expect_estimated(*result, name, truth);
   }
   EXPECT_TRUE(has_finding(*result, "compass-deviation"));
   EXPECT_FALSE(has_finding(*result, "sensor-scale"));
@@ -356,9 +342,7 @@ TEST_P(LateLogs, FindsTheSpeedOfOneWheel) {
     data.logs = {with_speed_of_wheel(precise_drive(t), t, left_m)};
     const auto result = identify(robot(), data, options(), {});
     ASSERT_TRUE(result);
-    const auto offset = estimated(*result, "speed.offset_m");
-    ASSERT_TRUE(offset && offset->std_error);
-    EXPECT_NEAR(offset->value, left_m, 4.5 * *offset->std_error);
+    expect_estimated(*result, "speed.offset_m", left_m);
     EXPECT_TRUE(has_finding(*result, "speed-sensor", left_m > 0.0 ? "left" : "right"));
     EXPECT_FALSE(has_finding(*result, "force-imbalance"));
     expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
@@ -384,9 +368,7 @@ TEST_P(LateLogs, FindsThePlaceOfAnAntenna) {
   ASSERT_TRUE(result);
   for (const auto& [name, truth] :
        {std::pair("position.ahead_m", kAhead_m), std::pair("position.left_m", kLeft_m)}) {
-    const auto found = estimated(*result, name);
-    ASSERT_TRUE(found && found->std_error) << name;
-    EXPECT_NEAR(found->value, truth, 4.5 * *found->std_error) << name;
+    expect_estimated(*result, name, truth);
   }
   EXPECT_TRUE(has_finding(*result, "position-sensor"));
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
@@ -450,9 +432,7 @@ TEST_P(SlippingWheels, AreFoundInTheirReadings) {
   data.logs = {with_slip(precise_drive(t), kSlip_mps, GetParam())};
   const auto result = identify(robot(), data, options_of_instance(), {});
   ASSERT_TRUE(result);
-  const auto slip = estimated(*result, "slip.speed_mps");
-  ASSERT_TRUE(slip && slip->std_error);
-  EXPECT_NEAR(slip->value, kSlip_mps, 4.5 * *slip->std_error);
+  expect_estimated(*result, "slip.speed_mps", kSlip_mps);
   EXPECT_TRUE(has_finding(*result, "wheel-slip", "speed_mps"));
   EXPECT_EQ(has_finding(*result, "wheel-slip", "yaw_rate_radps"), GetParam());
   EXPECT_FALSE(has_finding(*result, "late-commands"));
@@ -542,9 +522,7 @@ void expect_found(DrivingLog log, const Truth& truth, const std::string& name, d
   data.logs = {std::move(log)};
   const auto result = identify(robot(), data, options, {});
   ASSERT_TRUE(result);
-  const auto found = estimated(*result, name);
-  ASSERT_TRUE(found && found->std_error);
-  EXPECT_NEAR(found->value, value, 4.5 * *found->std_error);
+  expect_estimated(*result, name, value);
   EXPECT_TRUE(has_finding(*result, code));
   EXPECT_FALSE(has_finding(*result, "model-inadequate"));
   expect_recovered(*result, ParameterId::kMassNorm, truth.mass_norm, 4.5);
@@ -730,9 +708,7 @@ TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithAMotorLag) {
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "changes-between-rows"));
   EXPECT_FALSE(has_finding(*result, "late-commands"));
-  const auto lag = estimated(*result, "motor.time_constant_s");
-  ASSERT_TRUE(lag && lag->std_error);
-  EXPECT_NEAR(lag->value, kLag_s, 4.5 * *lag->std_error);
+  expect_estimated(*result, "motor.time_constant_s", kLag_s);
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
   expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
 }

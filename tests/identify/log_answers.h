@@ -120,6 +120,13 @@ inline std::optional<EstimatorParameter> estimated(const Identification& result,
   return std::nullopt;
 }
 
+/// Expects a value within 4.5 standard errors of `truth`.
+inline void expect_estimated(const Identification& result, const std::string& name, double truth) {
+  const auto found = estimated(result, name);
+  ASSERT_TRUE(found && found->std_error) << name;
+  EXPECT_NEAR(found->value, truth, 4.5 * *found->std_error) << name;
+}
+
 inline bool has_finding(const Identification& result, const std::string& code,
                         const std::string& words = "") {
   return std::ranges::any_of(result.model.record.findings, [&](const Finding& f) {

@@ -13,6 +13,12 @@
 #include "awmr/trials/log_start.h"
 
 namespace awmr {
+namespace {
+
+using Kind = FreeQuantity::Kind;
+
+}  // namespace
+
 std::vector<CandidateTerm> candidate_terms(const LogProblem& problem, const SearchPoint& point) {
   constexpr double kWorthATry = 3.0;
   const std::vector<FreeQuantity> channels = further_terms(problem);
@@ -21,7 +27,7 @@ std::vector<CandidateTerm> candidate_terms(const LogProblem& problem, const Sear
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const double value = tests[i].value;
     if (channels[i].may_be_zero() && !(value > 0.0)) continue;
-    if (channels[i].kind == FreeQuantity::Kind::kForceExponent && !(value < 0.0)) continue;
+    if (channels[i].kind == Kind::kForceExponent && !(value < 0.0)) continue;
     const double significance = std::abs(value) / tests[i].noise_error;
     if (significance > kWorthATry) {
       found.push_back({channels[i], value, significance, tests[i].gain});
@@ -33,15 +39,13 @@ std::vector<CandidateTerm> candidate_terms(const LogProblem& problem, const Sear
 
 namespace {
 
-using Kind = FreeQuantity::Kind;
-
 /// A filter is kept only if its AIC is lower than that of the best fit so far by more than this.
 constexpr double kLikelierFilter = 10.0;
 
 /// Tries a low-pass filter in place of the delay of each channel in `lags_s`, with the same delay
 /// as the initial guess. Here and below: `settled` is the converged fit without the new terms, and
-/// `lowest` keeps the best fit so far. Each channel gets
-/// four trials: filters of first and of second order, both continuous or with a step per row.
+/// `lowest` keeps the best fit so far. Each channel gets four trials: filters of first and of second
+/// order, both continuous or with a step per row.
 void consider_filters(const NoiseIteration& settled,
                       const std::vector<std::pair<LogChannel, double>>& lags_s, LowestAic& lowest) {
   // If the speed is the only channel, its filter has the same effect as a motor lag, which is more
@@ -102,15 +106,16 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
     terms.push_back({extra_force(ExtraForce::kTurnDragExponent), 1.0});
     terms.push_back({extra_force(ExtraForce::kTurnDragSpeedExponent), 0.5});
   }
+  const auto add_partner = [&](const FreeQuantity& part, const FreeQuantity& partner) {
+    const bool is_part = candidate.quantity.name() == part.name();
+    if (is_part && !has(problem.model.quantities, partner.name())) terms.push_back({partner, 0.0});
+  };
   for (const auto& [one, other] :
        {std::pair(extra_force(ExtraForce::kSlopeX), extra_force(ExtraForce::kSlopeY)),
         std::pair(free_term(Kind::kPositionAhead), free_term(Kind::kPositionLeft)),
         std::pair(free_term(Kind::kCompassSin), free_term(Kind::kCompassCos))}) {
-    const std::string name = candidate.quantity.name();
-    for (const auto& [part, companion] : {std::pair(&one, &other), std::pair(&other, &one)}) {
-      const bool is_new = !place_of(problem.model.quantities, companion->name());
-      if (name == part->name() && is_new) terms.push_back({*companion, 0.0});
-    }
+    add_partner(one, other);
+    add_partner(other, one);
   }
   if (candidate.quantity.kind == Kind::kForceSaturation) {
     const FreeQuantity sharpness = free_term(Kind::kSaturationSharpness);
@@ -159,10 +164,10 @@ std::optional<NoiseIteration> consider_smoothing(const NoiseIteration& settled,
   std::optional<NoiseIteration> first;
   for (const bool is_mean : {false, true}) {
     std::vector<FreeTerm> smoothing;
-    for (const auto& [quantity, value, significance, gain] : terms) {
-      if (quantity.kind != Kind::kSmoothing) continue;
-      if (significance < kComparable * terms.front().significance) break;
-      smoothing.push_back({smoothing_of(quantity.channel, is_mean), value});
+    for (const CandidateTerm& term : terms) {
+      if (term.quantity.kind != Kind::kSmoothing) continue;
+      if (term.significance < kComparable * terms.front().significance) break;
+      smoothing.push_back({smoothing_of(term.quantity.channel, is_mean), term.value});
     }
     if (smoothing.empty()) break;
     NoiseIteration all = tried(settled, smoothing);

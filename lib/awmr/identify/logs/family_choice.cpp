@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -15,6 +14,7 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/core/option_text.h"
+#include "awmr/identify/logs/delays.h"
 #include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
@@ -131,15 +131,19 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                              apart, families_in_words(best.surge, best.yaw))};
 }
 
-/// The finding of a search that reached its limit of work or time. `before`: step that it did not
-/// reach, in words. `fit`: the best fit so far.
-Finding not_finished(const std::string& file, std::string_view before, const FamilyFit& fit) {
-  return {
-      file, 0, Severity::kWarning, "families-not-compared",
-      fmt::format("the search for the resistance family reached its limit of computation or time "
-                  "before {} with {}, so no intervals are given. Select the family yourself with "
-                  "{}, or use a part of the logs",
-                  before, families_in_words(fit.surge, fit.yaw), option_text("family surge=..."))};
+/// If the limit of work or time is reached, notes it in `result`, with a finding. `before`: step that
+/// the search did not reach, in words. `fit`: the best fit so far.
+void note_limit(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                std::string_view before, const FamilyFit& fit, BestFamily& result) {
+  if (!is_over(power_law)) return;
+  result.is_out_of_time = true;
+  result.findings.push_back(
+      {logs.front().file, 0, Severity::kWarning, "families-not-compared",
+       fmt::format("the search for the resistance family reached its limit of computation or time "
+                   "before {} with {}, so no intervals are given. Select the family yourself with "
+                   "{}, or use a part of the logs",
+                   before, families_in_words(fit.surge, fit.yaw),
+                   option_text("family surge=..."))});
 }
 
 /// Index of the selected fit. The fit with a power law on the axis (yaw if `of_yaw`, else surge) is
@@ -178,11 +182,7 @@ void compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law
   if (best != 0) {
     fits.front() = searched_again(logs, limited, std::move(fits.front()), fits[best]);
   }
-  if (is_over(power_law)) {
-    result.is_out_of_time = true;
-    result.findings.push_back(
-        not_finished(logs.front().file, "every resistance family was compared", fits.front()));
-  }
+  note_limit(logs, power_law, "every resistance family was compared", fits.front(), result);
   std::swap(fits.front(), fits[selected(fits, of_yaw, lead)]);
   result.best = std::move(fits.front());
   std::move(fits.begin() + 1, fits.end(), std::back_inserter(result.others));
@@ -240,11 +240,7 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
     append(options.terms, power_law.terms);
   }
   FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
-  if (is_over(power_law)) {
-    result.is_out_of_time = true;
-    result.findings.push_back(
-        not_finished(logs.front().file, "it had looked for delays, lags and command errors", best));
-  }
+  note_limit(logs, power_law, "it had looked for delays, lags and command errors", best, result);
   if (aic_lead(own.fit, best.fit) > 0.0) best = std::move(own);
 }
 
@@ -272,6 +268,18 @@ std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const 
   return again;
 }
 
+/// Largest decrease of -2 ln L, >= 0, that score tests predict for `fit` with one more delay, lag,
+/// force or error of command or sensor.
+double further_term_gain(const std::vector<DrivingLog>& logs, const FamilyFit& fit) {
+  double most = 0.0;
+  if (const auto solution = solution_of(logs, fit)) {
+    for (const CandidateTerm& term : candidate_terms(solution->problem, solution->point)) {
+      most = std::max(most, term.gain);
+    }
+  }
+  return most;
+}
+
 /// A fit of other families may be worse than `result.best` only because it lacks a delay, a lag, a
 /// force or an error of command or sensor, whose effect the resistance of `result.best` imitates.
 /// If the score tests predict that such a term lowers the AIC of another fit by kFamilyAicThreshold
@@ -282,21 +290,22 @@ std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const 
 void search_terms_of_others(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                             double lead, BestFamily& result) {
   if (!result.best.fit.usable || result.is_out_of_time || is_over(power_law)) return;
-  const auto predicted = [&](const FamilyFit& other) {
-    const double gain = other.fit.further_term_gain - result.best.fit.further_term_gain;
-    return other.fit.usable ? aic_lead(other.fit, result.best.fit) + gain
-                            : -std::numeric_limits<double>::infinity();
-  };
-  const auto other = std::ranges::max_element(result.others, {}, predicted);
-  if (other == result.others.end() || !(predicted(*other) > kFamilyAicThreshold)) return;
+  FamilyFit* other = nullptr;
+  double largest_lead = kFamilyAicThreshold;
+  const double gain_of_best = result.others.empty() ? 0.0 : further_term_gain(logs, result.best);
+  for (FamilyFit& one : result.others) {
+    if (!one.fit.usable) continue;
+    const double gain = further_term_gain(logs, one) - gain_of_best;
+    const double predicted_lead = aic_lead(one.fit, result.best.fit) + gain;
+    if (!(predicted_lead > largest_lead)) continue;
+    largest_lead = predicted_lead;
+    other = &one;
+  }
+  if (!other) return;
   LogFitOptions options = from_optimum(other->options, *other);
   options.finds_delays = true;
   FamilyFit own = fit_with(logs, std::move(options), other->surge, other->yaw);
-  if (is_over(power_law)) {
-    result.is_out_of_time = true;
-    result.findings.push_back(not_finished(
-        logs.front().file, "it had looked for terms of the other families", result.best));
-  }
+  note_limit(logs, power_law, "it had looked for terms of the other families", result.best, result);
   if (aic_lead(own.fit, other->fit) > 0.0) *other = std::move(own);
   const auto is_power_law = [](const FamilyFit& fit) {
     return fit.surge == Family::kPower && fit.yaw == Family::kPower;

@@ -189,6 +189,18 @@ LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit) {
   return options;
 }
 
+std::optional<Extended> solution_of(const std::vector<DrivingLog>& logs, const FamilyFit& solved) {
+  const LogFit& fit = solved.fit;
+  LogProblem problem = log_problem(logs, from_optimum(solved.options, solved));
+  if (problem.model.initial.size() * problem.windows.size() != fit.initial_states.size()) return {};
+  problem.model.quantities = fit.quantities;
+  problem.initial = fit.coordinates;
+  problem.bounds = coordinate_bounds(fit.quantities, fit.coordinates, problem.model.vehicle);
+  problem.model.longest_step_s = step_s_at(problem.model, fit.coordinates);
+  set_noise(fit.noise, problem);
+  return Extended{std::move(problem), {fit.coordinates, fit.initial_states}};
+}
+
 FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                      Family surge, Family yaw) {
   return fit_with(logs, with_families(power_law, surge, yaw), surge, yaw);

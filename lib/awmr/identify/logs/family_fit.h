@@ -3,10 +3,12 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "awmr/identify/logs/log_fit.h"
+#include "awmr/identify/logs/score_test.h"
 
 namespace awmr {
 
@@ -41,10 +43,13 @@ double aic_under(const NoiseLevels& noise, const LogFit& fit, double most = kNoL
 /// absorbs the error of the fit's own model. If each fit used its own noise model, a fit with a
 /// smooth error of 0.2 m/s could be likelier than a fit with an error of 3 mm/s.
 ///
-/// `most`: as in aic_under(). With kMostRows, each innovation counts as at most three standard
+/// `most`: as in aic_under(). With kMaxSquaredInnovation, each innovation counts as at most three standard
 /// deviations, so that a few rows do not decide.
 double aic_lead(const LogFit& a, const LogFit& b, double most = kNoLimit);
-inline constexpr double kMostRows = 9.0;
+inline constexpr double kMaxSquaredInnovation = 9.0;
+
+/// The problem of a fit, and its solution. Empty if its windows are not those of the fit.
+std::optional<Extended> solution_of(const std::vector<DrivingLog>& logs, const FamilyFit& solved);
 
 /// True if the limit of work (Effort) or of time is reached, so that no further fit may begin.
 bool is_over(const LogFitOptions& options);

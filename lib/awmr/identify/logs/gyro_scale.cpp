@@ -24,20 +24,6 @@ bool assumes_scale(const LogFit& fit) {
          !has_kind(fit.quantities, FreeQuantity::Kind::kSensorScale, LogChannel::kYawRate);
 }
 
-/// The problem of the fit `chosen`, and its solution. Empty if its windows are not those of the
-/// fit.
-std::optional<Extended> solution_of(const std::vector<DrivingLog>& logs, const FamilyFit& chosen) {
-  const LogFit& fit = chosen.fit;
-  LogProblem problem = log_problem(logs, from_optimum(chosen.options, chosen));
-  if (problem.model.initial.size() * problem.windows.size() != fit.initial_states.size()) return {};
-  problem.model.quantities = fit.quantities;
-  problem.initial = fit.coordinates;
-  problem.bounds = coordinate_bounds(fit.quantities, fit.coordinates, problem.model.vehicle);
-  problem.model.longest_step_s = step_s_at(problem.model, fit.coordinates);
-  set_noise(fit.noise, problem);
-  return Extended{std::move(problem), {fit.coordinates, fit.initial_states}};
-}
-
 /// Scale error s of the yaw rate that remains possible with the logs, and its effect on the fit.
 struct OpenScale {
   double std = 0.0;          ///< root of the mean square of s

@@ -18,7 +18,7 @@ namespace awmr {
 ///
 /// The fit with the lowest AIC becomes `chosen`. The logs do not decide if the AIC of another fit
 /// is higher by less than 10, or if the difference is larger only because of a few rows
-/// (kMostRows). These few rows are those in which a command changes: whether a
+/// (kMaxSquaredInnovation). These few rows are those in which a command changes: whether a
 /// reading in such a row already shows the new command depends on the program that writes the log.
 /// The intervals of the parameters that differ between the fits by more than one standard error are
 /// then withdrawn, and the finding `wheel-slip` names both explanations. Empty if nothing was

@@ -62,15 +62,6 @@ std::vector<double> candidate_gains(const LogProblem& problem, const SearchPoint
   return gains;
 }
 
-/// LogFit::further_term_gain.
-double further_term_gain(const LogProblem& problem, const SearchPoint& point) {
-  double most = 0.0;
-  for (const CandidateTerm& term : candidate_terms(problem, point)) {
-    most = std::max(most, term.gain);
-  }
-  return most;
-}
-
 /// Mean square of the errors, each divided by the standard deviation of its sensor in `guess`.
 double relative_error_of(const LogProblem& guess, const ErrorsByChannel& errors) {
   double sum = 0.0;
@@ -181,7 +172,6 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .change_reach_s = change_reach_s(problem.windows),
           .errors = errors_by_channel(problem, errors),
           .candidate_gain = candidate_gains(problem, solved.point, options.candidate_terms),
-          .further_term_gain = further_term_gain(problem, solved.point),
           .widened = found.widened(),
           .report = log_report({problem, solved, found, bootstrap95}),
           .usable = solved.usable && solved.converged};

@@ -39,9 +39,6 @@ struct LogFit {
   /// One per term in LogFitOptions::candidate_terms: the decrease of -2 ln L, >= 0, that a score
   /// test predicts for a fit that also estimates this term.
   std::vector<double> candidate_gain;
-  /// Largest decrease of -2 ln L, >= 0, that a score test predicts for a fit with one more delay,
-  /// lag, force or error of command or sensor (candidate_terms() in delays.h).
-  double further_term_gain = 0.0;
   double widened = 1.0;    ///< largest factor by which a standard error was raised
   EstimatorReport report;  ///< report for /estimates of model.json
   bool usable = false;     ///< true if the final search converged
