@@ -73,7 +73,7 @@ std::string summary_of(const Model& model) {
 std::string estimators_of(const Model& model) {
   std::string text = "estimators side by side\n";
   for (const EstimatorReport& report : model.record.reports) {
-    std::string values;
+    std::string values = report.parameters.empty() ? " " + report.stop_reason : "";
     for (const EstimatorParameter& parameter : report.parameters) {
       values += fmt::format(" {}={:.4f}", parameter.name, parameter.value);
     }

@@ -442,6 +442,18 @@ TEST(Families, AreComparedInMostRowsWithoutAFewLargeErrors) {
   EXPECT_EQ(aic_lead(a, LogFit{}, kMaxSquaredInnovation), std::numeric_limits<double>::infinity());
 }
 
+TEST(Multistart, UsesPartsOfAboutFiftyRowsOrMore) {
+  for (const double rate_hz : {5.0, 100.0}) {
+    const std::vector<DrivingLog> logs = {
+        drive(kTruths[1], 8, {.duration_s = 60.0, .rate_hz = rate_hz})};
+    const LogProblem rough = rough_problem(log_problem(logs, from_nothing(logs)));
+    ASSERT_FALSE(rough.windows.empty());
+    for (const FitWindow& part : rough.windows) {
+      EXPECT_GE(part.rows.end - part.rows.begin, 40U) << rate_hz;
+    }
+  }
+}
+
 TEST(Windows, PartsContainEverySampleOnce) {
   const std::vector<DrivingLog> logs{drive(kTruths[0], 4)};
   for (const FitWindow& window : fit_windows(logs, kWindow_s)) {

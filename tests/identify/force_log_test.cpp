@@ -1,6 +1,7 @@
 /// Logs of vehicles with forces that the model does not contain (extra_forces.h).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -25,6 +26,17 @@ std::vector<State<double>> motion_with(const DrivingLog& log, const Plant<double
   return states;
 }
 
+/// Changes the readings of the log by the difference of these motions.
+void move_readings(const std::vector<State<double>>& before,
+                   const std::vector<State<double>>& after, DrivingLog& log) {
+  for (const LogChannel channel : kChannels) {
+    for (std::size_t row = 0; log[channel] && row < log.rows(); ++row) {
+      log[channel]->value[row] +=
+          channel_of(after[row], channel) - channel_of(before[row], channel);
+    }
+  }
+}
+
 /// Log of a drive of the plant with sensor noise and the extra forces. `reverses`: after the first
 /// 5 s, the commanded wheel forces are reversed in every second interval of 3 s.
 DrivingLog drive_with(const Plant<double>& plant, ExtraForces extra, bool reverses = false,
@@ -40,13 +52,7 @@ DrivingLog drive_with(const Plant<double>& plant, ExtraForces extra, bool revers
     log.force_right[row] *= -0.6;
   }
   extra.has_motor_per_side = has_force_difference(log);
-  const std::vector<State<double>> after = motion_with(log, plant, extra);
-  for (const LogChannel channel : kChannels) {
-    for (std::size_t row = 0; log[channel] && row < log.rows(); ++row) {
-      log[channel]->value[row] +=
-          channel_of(after[row], channel) - channel_of(before[row], channel);
-    }
-  }
+  move_readings(before, motion_with(log, plant, extra), log);
   return log;
 }
 
@@ -133,6 +139,45 @@ INSTANTIATE_TEST_SUITE_P(
       std::erase(name, '-');
       return name;
     });
+
+/// The commands c of both sides lower the voltage of the battery: the forces are
+/// c (1 - k (|c_left| + |c_right|)). At such a loss the intervals are withdrawn.
+TEST(ForceLog, FindsTheSagOfACommonSupply) {
+  constexpr double kSag = 0.08;  // k
+  const Truth& t = kTruths[1];
+  DrivingLog log = drive_with(plant(t), {}, true, 50.0, kPreciseSensors, 16.0);
+  const std::vector<State<double>> before = motion_with(log, plant(t), {});
+  double largest = 0.0;
+  std::vector<SideForces<double>> commands;
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    const double share = static_cast<int>(log.t_s[row] / 2.0) % 2 == 0 ? 0.6 : -0.4;
+    double& left = log.force_left[row];
+    double& right = log.force_right[row];
+    left *= 1.0 - share;
+    right *= 1.0 + share;
+    const double sum = std::abs(left) + std::abs(right);
+    const double kept = 0.5 + std::sqrt(0.25 - kSag * sum);  // 1 - k (|c_left| + |c_right|)
+    commands.push_back({left / kept, right / kept});
+    largest = std::max({largest, std::abs(left / kept), std::abs(right / kept)});
+  }
+  move_readings(before, motion_with(log, plant(t), {}), log);
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    log.force_left[row] = commands[row].left;
+    log.force_right[row] = commands[row].right;
+  }
+  const Identification result = identified(std::move(log), power_law());
+  EXPECT_TRUE(has_finding(result, "force-saturation"));
+  EXPECT_FALSE(has_finding(result, "model-inadequate"));
+  const auto sag = estimated(result, "motor.supply_sag");
+  ASSERT_TRUE(sag);
+  EXPECT_NEAR(sag->value, 2.0 * kSag * largest, 0.01);
+  for (const auto& [id, value] :
+       {std::pair(ParameterId::kMassNorm, t.mass_norm), std::pair(ParameterId::kSurgeAlpha, t.a1),
+        std::pair(ParameterId::kInertiaNorm, 0.16 * t.mass_norm)}) {
+    EXPECT_NEAR(result.model[id].value.value_or(0.0), value, 0.02 * value) << info(id).name;
+    EXPECT_FALSE(result.model[id].ci95) << info(id).name;
+  }
+}
 
 /// A log of a differential vehicle with the resistances 0.6 u^0.9 and 0.075 r^0.8 (m' = 0.5 s^2/m,
 /// I'z = 0.03 s^2 m, d = 0.2 m). A PI controller of each wheel follows the logged set-points, which

@@ -316,17 +316,21 @@ DrivingLog with_speed_of_wheel(DrivingLog log, const Truth& t, double left_m) {
 TEST(LateLog, FindsTheDeviationOfACompass) {
   constexpr double kSin_rad = 0.11;
   constexpr double kCos_rad = -0.06;
+  constexpr double kSin2_rad = 0.05;
+  constexpr double kCos2_rad = 0.03;
   const Truth& t = kTruths[1];
   DrivingLog log = precise_drive(t);
   for (double& psi_rad : log[LogChannel::kHeading]->value) {
-    psi_rad += kSin_rad * std::sin(psi_rad) + kCos_rad * std::cos(psi_rad);
+    psi_rad += kSin_rad * std::sin(psi_rad) + kCos_rad * std::cos(psi_rad) +
+               kSin2_rad * std::sin(2.0 * psi_rad) + kCos2_rad * std::cos(2.0 * psi_rad);
   }
   TrialData data;
   data.logs = {std::move(log)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   for (const auto& [name, truth] :
-       {std::pair("compass.sin_rad", kSin_rad), std::pair("compass.cos_rad", kCos_rad)}) {
+       {std::pair("compass.sin_rad", kSin_rad), std::pair("compass.cos_rad", kCos_rad),
+        std::pair("compass.sin2_rad", kSin2_rad), std::pair("compass.cos2_rad", kCos2_rad)}) {
     expect_estimated(*result, name, truth);
   }
   EXPECT_TRUE(has_finding(*result, "compass-deviation"));

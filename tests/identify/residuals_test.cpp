@@ -180,13 +180,21 @@ INSTANTIATE_TEST_SUITE_P(
         TermCase{"DelayAndSmoothing",
                  {{free_term(FreeQuantity::Kind::kSensorDelay, LogChannel::kSpeed), 0.023},
                   {smoothing_of(LogChannel::kSpeed), 0.0017}}},
+        TermCase{"SupplySag", {{supply_sag(0.6), 0.15}}},
+        TermCase{"SupplySagWithLag",
+                 {{supply_sag(0.6), 0.15},
+                  {free_term(FreeQuantity::Kind::kDelay), 0.023},
+                  {free_term(FreeQuantity::Kind::kMotorLag), 0.047},
+                  {free_term(FreeQuantity::Kind::kForceImbalance), 0.06}}},
         TermCase{"AxleOffset", {{extra_force(ExtraForce::kAxleOffset), 0.3}}},
         TermCase{"Antenna",
                  {{free_term(FreeQuantity::Kind::kPositionAhead), 0.3},
                   {free_term(FreeQuantity::Kind::kPositionLeft), -0.2}}},
         TermCase{"CompassDeviation",
                  {{free_term(FreeQuantity::Kind::kCompassSin), 0.12},
-                  {free_term(FreeQuantity::Kind::kCompassCos), -0.07}}}),
+                  {free_term(FreeQuantity::Kind::kCompassCos), -0.07},
+                  {free_term(FreeQuantity::Kind::kCompassSin2), 0.05},
+                  {free_term(FreeQuantity::Kind::kCompassCos2), -0.03}}}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -20,6 +20,7 @@ inline constexpr std::string_view kForceRiseName = "motor.rise_time_s";
 inline constexpr std::string_view kForceFallName = "motor.fall_time_s";
 inline constexpr std::string_view kForceExponentName = "motor.exponent";
 inline constexpr std::string_view kForceSaturationName = "motor.saturation";
+inline constexpr std::string_view kSupplySagName = "motor.supply_sag";
 inline constexpr std::string_view kSaturationSharpnessName = "motor.saturation_sharpness";
 /// Further forces. Stribeck friction (larger friction at low speed) with its speed scale, in surge
 /// and in yaw. Acceleration by a slope along x and y. Additional surge resistance in turns, with
@@ -61,5 +62,7 @@ inline constexpr std::string_view kPositionAheadName = "position.ahead_m";  ///<
 inline constexpr std::string_view kPositionLeftName = "position.left_m";    ///< of the antenna
 inline constexpr std::string_view kCompassSinName = "compass.sin_rad";      ///< deviation at 90 deg
 inline constexpr std::string_view kCompassCosName = "compass.cos_rad";      ///< deviation at 0 deg
+inline constexpr std::string_view kCompassSin2Name = "compass.sin2_rad";    ///< at 45 deg
+inline constexpr std::string_view kCompassCos2Name = "compass.cos2_rad";    ///< at 0 and 180 deg
 
 }  // namespace awmr

@@ -34,9 +34,10 @@ bool is_estimated_name(std::string_view name) {
          name == kSteeringScaleName || name == kServoRateName || name == kForceImbalanceName ||
          name == kForceExponentName || name == kForceRiseName || name == kForceFallName ||
          name == kForceSaturationName || name == kSaturationSharpnessName ||
-         name == kSwayOffsetName || name == kSwayAngleName || name == kSpeedOffsetName ||
-         name == kPositionAheadName || name == kPositionLeftName || name == kCompassSinName ||
-         name == kCompassCosName || name == kMotorLagName || name == kMassOverSurgeName ||
+         name == kSupplySagName || name == kSwayOffsetName || name == kSwayAngleName ||
+         name == kSpeedOffsetName || name == kPositionAheadName || name == kPositionLeftName ||
+         name == kCompassSinName || name == kCompassCosName || name == kCompassSin2Name ||
+         name == kCompassCos2Name || name == kMotorLagName || name == kMassOverSurgeName ||
          name == kCoulombOverSurgeName || name == kQuadraticOverSurgeName ||
          std::ranges::find(kExtraForceNames, name) != kExtraForceNames.end() ||
          name.starts_with(kBiasPrefix) || name.starts_with(kSensorDelayPrefix) ||

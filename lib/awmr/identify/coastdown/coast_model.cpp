@@ -165,11 +165,11 @@ std::optional<CoastStart> competitor(const CoastCandidate& plain, const CoastCan
   return flat_direction(data.curves, data.surge, fixed);
 }
 
-/// Limit of the correlation time of a drift, s; a slower drift is a model error. The limit is that
-/// of log fits, 0.5 s, or the time constant of the motion if that is shorter.
+/// ChannelNoise::longest_filter_s of the curves: 0.5 s, or the time constant of the motion if that
+/// is shorter.
 double longest_drift_s(const CoastData& data, const CoastStart& at) {
-  constexpr double kLongest_s = 0.5;
-  return std::min(kLongest_s, fall_time_s(data.curves, data.surge.law(), at.log_mass));
+  return std::min(ChannelNoise{}.longest_filter_s,
+                  fall_time_s(data.curves, data.surge.law(), at.log_mass));
 }
 
 /// Fits the curves with a low-pass filter in the speed sensor: the logged speed y follows the true
@@ -194,7 +194,7 @@ void add_filter(const CoastData& data, const CoastCandidate& plain, CoastModel& 
   if (!is_significant) return;
   model.start = best.at;
   model.noise = best.noise;
-  model.longest_s = std::max(kOverLag * best.at.lag_s, longest_drift_s(data, best.at));
+  model.noise.longest_filter_s = std::max(kOverLag * best.at.lag_s, longest_drift_s(data, best.at));
   model.other = competitor(plain, filters[1], best, fit, data);
 }
 
@@ -266,11 +266,9 @@ std::optional<LawOfCurves> law_of_curves(const CoastReadings& readings,
     if (decrease > best.decrease) best = {k, decrease};
   }
   const CoastCandidate& chosen = fits[best.index];
-  const CoastData data = data_of(readings, laws[best.index].fit);
-  if (best.decrease <= kFamilyAicThreshold ||
-      chosen.noise.of_the_model(longest_drift_s(data, chosen.at))) {
-    return std::nullopt;
-  }
+  ChannelNoise noise = chosen.noise;
+  noise.longest_filter_s = longest_drift_s(data_of(readings, laws[best.index].fit), chosen.at);
+  if (best.decrease <= kFamilyAicThreshold || noise.of_the_model()) return std::nullopt;
   return best;
 }
 
@@ -283,13 +281,13 @@ CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& su
   const CoastCandidate plain = fit_candidate(data, given.at);
   if (!std::isfinite(plain.aicc)) return model;
   model.noise = plain.noise;
-  model.longest_s = longest_drift_s(data, given.at);
+  model.noise.longest_filter_s = longest_drift_s(data, given.at);
   if (std::ranges::none_of(curves, &CoastCurve::of_bins)) add_filter(data, plain, model);
   return model;
 }
 
 std::vector<Finding> inadequacy(const CoastModel& model, const std::string& file) {
-  if (!model.is_inadequate()) return {};
+  if (!model.noise.of_the_model()) return {};
   return {{file, 0, Severity::kWarning, "model-inadequate",
            fmt::format("the measured speeds of the coast-downs deviate from the fitted curve "
                        "by {:.2g} m/s for {:.2g} s at a time (sensor noise: {:.2g} m/s). "

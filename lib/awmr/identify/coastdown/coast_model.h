@@ -22,10 +22,8 @@ struct CoastModel {
   /// Noise of the residuals. In the fit that gives it, the surge law may vary within its
   /// covariance.
   ChannelNoise noise;
-  double longest_s = 0.5;  ///< s; a drift with a longer correlation time is an error of the model
 
-  bool is_inadequate() const { return noise.of_the_model(longest_s); }
-  bool withdraws_intervals() const { return other || noise.overwhelms_sensor(longest_s); }
+  bool withdraws_intervals() const { return other || noise.overwhelms_sensor(); }
 };
 
 /// Fits the curves without and with a low-pass filter in the speed sensor. Keeps the filter if its
@@ -53,13 +51,13 @@ struct LawOfCurves {
 /// and the speed may be filtered. All laws are compared under one noise model of the curves, that
 /// of the smallest residuals, because the drift of a law's own noise model absorbs the law's error.
 /// Returns the law with the lowest score if the score is lower than that of the first law by more
-/// than kFamilyAicThreshold and the law describes the curves (CoastModel::is_inadequate() is
+/// than kFamilyAicThreshold and the law describes the curves (ChannelNoise::of_the_model() is
 /// false). Empty otherwise, and if the first law describes the curves.
 std::optional<LawOfCurves> law_of_curves(const CoastReadings& readings,
                                          const std::vector<ScoredLaw>& laws);
 
 /// The finding `model-inadequate`, if the model does not describe the curves
-/// (CoastModel::is_inadequate()).
+/// (ChannelNoise::of_the_model()).
 std::vector<Finding> inadequacy(const CoastModel& model, const std::string& file);
 
 }  // namespace awmr

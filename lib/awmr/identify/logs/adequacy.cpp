@@ -137,8 +137,11 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
         has_only_positions(noise) ||
         (noise.at(channel).overwhelms_sensor() && is_evaluated(noise, channel));
     adequacy.withdraws_sway |=
-        channel == LogChannel::kSway || channel == LogChannel::kX || channel == LogChannel::kY;
-    adequacy.withdraws_servo |= channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
+        has(chosen.fit.quantities, ParameterId::kSwayAlpha) &&
+        (channel == LogChannel::kSway || channel == LogChannel::kX || channel == LogChannel::kY);
+    adequacy.withdraws_servo |=
+        has(chosen.fit.quantities, ParameterId::kSteeringTimeConstant) &&
+        (channel == LogChannel::kHeading || channel == LogChannel::kYawRate);
     errors += (errors.empty() ? "" : ", ") + describe_error(channel, noise.at(channel));
   }
   std::string advice = possible_causes(channels);

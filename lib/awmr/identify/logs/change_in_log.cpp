@@ -32,7 +32,7 @@ bool is_of_forces(const FreeTerm& term) {
   const FreeQuantity& q = term.quantity;
   return (q.kind == Kind::kExtraForce && !q.is_stribeck_or_slope()) ||
          q.kind == Kind::kForceExponent || q.kind == Kind::kForceSaturation ||
-         q.kind == Kind::kSaturationSharpness;
+         q.kind == Kind::kSaturationSharpness || q.kind == Kind::kSupplySag;
 }
 
 LogFitOptions options_of_parts(const FamilyFit& chosen) {

@@ -34,8 +34,11 @@ struct ChannelNoise {
   double damping = 0.0;          ///< zeta of a second-order drift, > 0
   double differenced = 0.0;      ///< theta of differenced noise, 0 to 1; 0: not differenced
   double sensor_std = 0.0;       ///< sensor noise: standard deviation by sensor_noise(), SI
-  int count = 0;                 ///< number of samples
-  double cost = 0.0;             ///< -2 ln L of the channel's errors, up to a constant
+  /// Correlation time, s, that the drift of a sensor filter rarely reaches, see of_the_model(): at
+  /// most 0.5 s, less if the motion of the vehicle is faster.
+  double longest_filter_s = 0.5;
+  int count = 0;      ///< number of samples
+  double cost = 0.0;  ///< -2 ln L of the channel's errors, up to a constant
 
   double std() const { return std::hypot(white_std, differenced * white_std, drift_std); }
   bool second_order() const { return frequency_radps > 0.0; }
@@ -45,18 +48,18 @@ struct ChannelNoise {
   int numbers() const {
     return drift_std > 0.0 ? (second_order() ? 4 : 3) : differenced > 0.0 ? 2 : 1;
   }
-  /// True if the drift is too large and too slow to come from a sensor filter. Its cause is then a
-  /// model error, or a drift of the sensor itself. `longest_s`: correlation time, s, that a filter
-  /// rarely reaches, or half of it if the drift is large.
-  bool of_the_model(double longest_s = 0.5) const {
-    return (drift_std > 0.5 * sensor_std && correlation_s >= longest_s) ||
-           (drift_std > 1.5 * sensor_std && correlation_s >= 0.5 * longest_s);
+  /// True if the drift is too large and too slow to come from a sensor filter: its correlation time
+  /// is above longest_filter_s, or half of it if the drift is large. Its cause is then a model
+  /// error, or a drift of the sensor itself.
+  bool of_the_model() const {
+    return (drift_std > 0.5 * sensor_std && correlation_s >= longest_filter_s) ||
+           (drift_std > 1.5 * sensor_std && correlation_s >= 0.5 * longest_filter_s);
   }
   /// True if of_the_model() is true and the drift is above 2.5 times the sensor noise. The model is
   /// then inadequate.
-  bool overwhelms_sensor(double longest_s = 0.5) const {
+  bool overwhelms_sensor() const {
     constexpr double kMany = 2.5;
-    return of_the_model(longest_s) && drift_std > kMany * sensor_std;
+    return of_the_model() && drift_std > kMany * sensor_std;
   }
   /// True if the drift is above a quarter of the sensor noise, with a correlation time above 0.2 s.
   /// Such a drift may come from an effect that the model does not contain.

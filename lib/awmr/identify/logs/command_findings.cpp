@@ -92,17 +92,24 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
                        least.value, most.value, kWhy)}};
 }
 
-/// Finding `compass-deviation` about the coefficients B and C of the compass (FreeQuantity::Kind).
+/// Finding `compass-deviation` about the coefficients of the compass (FreeQuantity::Kind).
 std::vector<Finding> compass_findings(const LogFit& fit, const std::string& file) {
-  const Identified deviation = length_of(identified(fit, Kind::kCompassSin).value_or(Identified{}),
-                                         identified(fit, Kind::kCompassCos).value_or(Identified{}));
-  if (!is_significant(deviation)) return {};
+  std::vector<std::string> parts;
+  for (const auto& [of_sine, of_cosine, cause] :
+       {std::tuple(Kind::kCompassSin, Kind::kCompassCos, "once per turn (hard iron)"),
+        std::tuple(Kind::kCompassSin2, Kind::kCompassCos2, "twice per turn (soft iron)")}) {
+    const Identified amplitude = length_of(identified(fit, of_sine).value_or(Identified{}),
+                                           identified(fit, of_cosine).value_or(Identified{}));
+    if (!is_significant(amplitude)) continue;
+    parts.push_back(fmt::format("{:.1f} +- {:.1f} deg {}", degrees(amplitude.value),
+                                degrees(amplitude.error), cause));
+  }
+  if (parts.empty()) return {};
   return {{file, 0, Severity::kWarning, "compass-deviation",
-           fmt::format("the error of heading_deg varies with the heading, by up to {:.1f} +- "
-                       "{:.1f} deg to both sides, as by magnetic parts of the vehicle. The fit "
-                       "compensates for this, but simulations and tuned gains ignore it; calibrate "
-                       "the compass (awmr compass)",
-                       degrees(deviation.value), degrees(deviation.error))}};
+           fmt::format("the error of heading_deg varies with the heading, as by magnetic parts of "
+                       "the vehicle. Amplitude: {}. The fit compensates for this, but simulations "
+                       "and tuned gains ignore it; calibrate the compass (awmr compass)",
+                       fmt::join(parts, ", "))}};
 }
 
 /// Finding `position-sensor` about the antenna or marker (FreeQuantity::Kind::kPositionAhead).
@@ -344,6 +351,17 @@ std::string saturation_text(const FoundTerm& loss, const LogFit& fit) {
       std::min(linear, full));
 }
 
+std::string sag_text(const FoundTerm& loss, const LogFit& fit) {
+  return fmt::format(
+      "if both sides have the largest command of the logs, {:.3g}, the wheels push {:.1f} +- "
+      "{:.1f} "
+      "% less than in proportion to small commands, and the command of each side reduces the force "
+      "of the other: the voltage of the common battery drops. The fit compensates for this{}, but "
+      "simulations and tuned gains assume proportional forces. Use a battery with less internal "
+      "resistance, or divide the commands by the measured voltage",
+      loss.quantity.full_command, 100.0 * loss.value, 100.0 * loss.error, without_intervals(fit));
+}
+
 std::string ramp_text(const FoundTerm& time, const LogFit&) {
   return fmt::format(
       "the force of a motor {} by at most {:.2f} +- {:.2f} of F_max per second: a controller ramps "
@@ -381,7 +399,8 @@ constexpr TermFinding kTermFindings[] = {
     {Kind::kForceFall, "force-ramp", ramp_text},
     {Kind::kForceImbalance, "force-imbalance", imbalance_text},
     {Kind::kForceExponent, "force-saturation", exponent_text},
-    {Kind::kForceSaturation, "force-saturation", saturation_text}};
+    {Kind::kForceSaturation, "force-saturation", saturation_text},
+    {Kind::kSupplySag, "force-saturation", sag_text}};
 
 }  // namespace
 
@@ -393,6 +412,7 @@ bool has_implausible_imbalance(const LogFit& fit) {
 
 bool saturates_much(const LogFit& fit) {
   return fit.value_of(Kind::kForceSaturation).value_or(0.0) > kLinear ||
+         fit.value_of(Kind::kSupplySag).value_or(0.0) > kLinear ||
          1.0 - fit.value_of(Kind::kForceExponent).value_or(1.0) > kLinear;
 }
 

@@ -69,6 +69,25 @@ void raise_to_power(const CommandPath& path, DelayedCommand& at) {
   }
 }
 
+/// Replaces the forces f_i by those of a sagging supply, and their derivatives by the chain rule.
+/// With the sag L, the sum S = |f_left| + |f_right| and k = L/(2 F'm):
+///
+///     f_i (1 - k S),   d[f_i (1 - k S)] = (1 - k S) df_i - k f_i dS,   d/dL = -f_i S/(2 F'm)
+void sag(const CommandPath& path, DelayedCommand& at) {
+  const SideForces<double> f = at.command.force;
+  const auto sign = [](double force) { return force == 0.0 ? 0.0 : std::copysign(1.0, force); };
+  const double sum = std::abs(f.left) + std::abs(f.right);
+  const double k = path.terms.value(Kind::kSupplySag) / (2.0 * path.full_command);
+  for (HeldCommand& by : at.by.of_kind) {
+    const double by_sum = sign(f.left) * by.force.left + sign(f.right) * by.force.right;
+    by.force.left = (1.0 - k * sum) * by.force.left - k * f.left * by_sum;
+    by.force.right = (1.0 - k * sum) * by.force.right - k * f.right * by_sum;
+  }
+  const double by_sag = -sum / (2.0 * path.full_command);
+  at.by[Kind::kSupplySag].force = {by_sag * f.left, by_sag * f.right};
+  at.command.force = {(1.0 - k * sum) * f.left, (1.0 - k * sum) * f.right};
+}
+
 /// Multiplies the forces by 1 - e (left) and 1 + e (right), with the imbalance e.
 void unbalance(double e, DelayedCommand& at) {
   SideForces<double>& force = at.command.force;
@@ -107,7 +126,7 @@ void steer_by_linkage(const CommandPath& path, DelayedCommand& at) {
 
 /// Applies the constant errors of the commands in this order: stop of the command (if
 /// CommandPath::stop_limits_command), dead band, asymmetry, curve and scale of the
-/// linkage, trim, imbalance, exponent and saturation.
+/// linkage, trim, imbalance, exponent, saturation and sag of the supply.
 DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
   const CommandTerms& terms = path.terms;
   double& steering_rad = at.command.steering_rad;
@@ -125,6 +144,7 @@ DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
   if (terms[Kind::kForceImbalance]) unbalance(terms.value(Kind::kForceImbalance), at);
   if (terms[Kind::kForceExponent]) raise_to_power(path, at);
   if (terms[Kind::kForceSaturation]) saturate(path, at);
+  if (terms[Kind::kSupplySag]) sag(path, at);
   return at;
 }
 

@@ -35,7 +35,7 @@ struct ByKind {
 
 /// Terms that the fit estimates, with the units and definitions of FreeQuantity::Kind. The column
 /// of a term whose coordinate is a logarithm is that of the logarithm.
-struct TermColumns : ByKind<std::optional<TermColumn>, FreeQuantity::Kind::kCompassCos> {
+struct TermColumns : ByKind<std::optional<TermColumn>, FreeQuantity::Kind::kCompassCos2> {
   /// Value of a term; `otherwise` if the fit does not estimate it.
   double value(FreeQuantity::Kind kind, double otherwise = 0.0) const {
     const std::optional<TermColumn>& term = (*this)[kind];
@@ -44,7 +44,7 @@ struct TermColumns : ByKind<std::optional<TermColumn>, FreeQuantity::Kind::kComp
 };
 
 /// Last kind of the terms between the logged commands and the wheels; the first is kDelay.
-inline constexpr auto kLastOfCommands = FreeQuantity::Kind::kSaturationSharpness;
+inline constexpr auto kLastOfCommands = FreeQuantity::Kind::kSupplySag;
 
 struct CommandTerms : TermColumns {
   bool turns_slowly = false;  ///< RampTimes::turns_slowly

@@ -81,18 +81,6 @@ void consider_filters_of_both(const NoiseIteration& settled, double delay_s, Low
   }
 }
 
-/// Largest absolute value that was measured of a channel; 1 if nothing was measured.
-double fastest_of(const LogProblem& problem, LogChannel channel) {
-  double largest = 0.0;
-  const DrivingLog* last = nullptr;
-  for (const FitWindow& window : problem.windows) {
-    if (window.rows.log == last) continue;
-    last = window.rows.log;
-    largest = std::max(largest, largest_measured(*last, channel));
-  }
-  return largest > 0.0 ? largest : 1.0;
-}
-
 /// The candidate, followed by terms that make sense only together with it, for example the speed
 /// scale of Stribeck friction.
 std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateTerm& candidate) {
@@ -113,7 +101,8 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
   for (const auto& [one, other] :
        {std::pair(extra_force(ExtraForce::kSlopeX), extra_force(ExtraForce::kSlopeY)),
         std::pair(free_term(Kind::kPositionAhead), free_term(Kind::kPositionLeft)),
-        std::pair(free_term(Kind::kCompassSin), free_term(Kind::kCompassCos))}) {
+        std::pair(free_term(Kind::kCompassSin), free_term(Kind::kCompassCos)),
+        std::pair(free_term(Kind::kCompassSin2), free_term(Kind::kCompassCos2))}) {
     add_partner(one, other);
     add_partner(other, one);
   }

@@ -174,12 +174,26 @@ double begin_of(const FreeQuantity& quantity) {
 /// or another term in the fit.
 std::vector<FreeQuantity> all_terms() {
   std::vector<FreeQuantity> terms;
-  for (const Kind kind :
-       {Kind::kDelay, Kind::kSteeringDelay, Kind::kMotorLag, Kind::kForceRise, Kind::kForceFall,
-        Kind::kSteeringTrim, Kind::kSteeringDeadBand, Kind::kSteeringAsymmetry,
-        Kind::kSteeringCurve, Kind::kForceImbalance, Kind::kForceExponent, Kind::kSwayOffset,
-        Kind::kSwayAngle, Kind::kSpeedOffset, Kind::kPositionAhead, Kind::kPositionLeft,
-        Kind::kCompassSin, Kind::kCompassCos}) {
+  for (const Kind kind : {Kind::kDelay,
+                          Kind::kSteeringDelay,
+                          Kind::kMotorLag,
+                          Kind::kForceRise,
+                          Kind::kForceFall,
+                          Kind::kSteeringTrim,
+                          Kind::kSteeringDeadBand,
+                          Kind::kSteeringAsymmetry,
+                          Kind::kSteeringCurve,
+                          Kind::kForceImbalance,
+                          Kind::kForceExponent,
+                          Kind::kSwayOffset,
+                          Kind::kSwayAngle,
+                          Kind::kSpeedOffset,
+                          Kind::kPositionAhead,
+                          Kind::kPositionLeft,
+                          Kind::kCompassSin,
+                          Kind::kCompassCos,
+                          Kind::kCompassSin2,
+                          Kind::kCompassCos2}) {
     terms.push_back(free_term(kind));
   }
   for (const ExtraForce force : {ExtraForce::kSlopeX, ExtraForce::kSlopeY, ExtraForce::kBrakeForce,
@@ -226,12 +240,13 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   add_term(problem, Kind::kForceImbalance, any_log(problem, has_force_difference), found);
   const double full_command = largest_command(problem);
   if (full_command > 0.0) add_ramps(quantities, found);
-  // A fit contains either an exponent or a saturation of the forces. Both together could fit every
-  // curve, even one with wrong forces at small commands.
+  // A fit contains only one of an exponent, a saturation and a supply sag of the forces. Together
+  // they could fit every curve, even one with wrong forces at small commands.
   if (full_command > 0.0 && !has(quantities, Kind::kForceExponent) &&
-      !has(quantities, Kind::kForceSaturation)) {
+      !has(quantities, Kind::kForceSaturation) && !has(quantities, Kind::kSupplySag)) {
     found.push_back(free_term(Kind::kForceExponent));
     found.push_back(force_saturation(full_command));
+    if (any_log(problem, has_force_difference)) found.push_back(supply_sag(full_command));
   }
   add_forces(problem, found);
   add_scales(problem, found);
@@ -246,7 +261,8 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   for (const Kind kind : {Kind::kPositionAhead, Kind::kPositionLeft}) {
     add_term(problem, kind, measured.contains(LogChannel::kX) && has_turns(problem), found);
   }
-  for (const Kind kind : {Kind::kCompassSin, Kind::kCompassCos}) {
+  for (const Kind kind :
+       {Kind::kCompassSin, Kind::kCompassCos, Kind::kCompassSin2, Kind::kCompassCos2}) {
     add_term(problem, kind, measured.contains(LogChannel::kHeading), found);
   }
   return found;
@@ -260,7 +276,7 @@ std::vector<std::string> requestable_terms() {
 
 std::vector<std::string> automatic_terms() {
   std::vector<std::string> names{std::string(kServoRateName), std::string(kSteeringScaleName),
-                                 std::string(kForceSaturationName),
+                                 std::string(kForceSaturationName), std::string(kSupplySagName),
                                  std::string(kSaturationSharpnessName)};
   for (const LogChannel channel : kChannels) {
     if (!is_often_filtered(channel)) continue;

@@ -20,6 +20,8 @@
 #include "awmr/identify/logs/multistart.h"
 #include "awmr/identify/logs/noise_iteration.h"
 #include "awmr/identify/logs/score_test.h"
+#include "awmr/model/plant_of.h"
+#include "awmr/model/steady.h"
 
 namespace awmr {
 namespace {
@@ -148,6 +150,29 @@ double change_reach_s(const std::vector<FitWindow>& windows) {
   return reach_s;
 }
 
+/// The noise of the channels, with ChannelNoise::longest_filter_s at the solution: the time constant
+/// of the motion at the largest measured speed or yaw rate, relaxation_time_s(), from 0.1 to 0.5 s.
+/// Model errors of a vehicle that reacts fast do not last longer. A channel whose filter is
+/// estimated keeps 0.5 s, because the filter correlates the noise.
+NoiseLevels with_drift_limits(const LogProblem& problem, const std::vector<double>& coordinates) {
+  constexpr double kShortest_s = 0.1;
+  const LogModel& model = problem.model;
+  const Plant<double> plant =
+      plant_of(model.vehicle, parameters_at(model.held, model.quantities, coordinates));
+  NoiseLevels levels = model.noise;
+  const auto limit = [&](LogChannel channel, double time_constant_s) {
+    const auto found = levels.find(channel);
+    if (found == levels.end() || has_kind(model.quantities, Kind::kSensorLag, channel)) return;
+    found->second.longest_filter_s =
+        std::clamp(time_constant_s, kShortest_s, ChannelNoise{}.longest_filter_s);
+  };
+  limit(LogChannel::kSpeed,
+        relaxation_time_s(plant.surge, plant.mass_norm, fastest_of(problem, LogChannel::kSpeed)));
+  limit(LogChannel::kYawRate, relaxation_time_s(plant.yaw, plant.inertia_norm,
+                                                fastest_of(problem, LogChannel::kYawRate)));
+  return levels;
+}
+
 /// Returns the result of a fit whose search ended at `solved`. `sums`: sums of all windows there,
 /// all finite.
 LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector<WindowSums>& sums,
@@ -166,7 +191,7 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .initial_states = solved.point.initial_states,
           .covariance = found.covariance,
           .refusal_reason = found.refusal_reason,
-          .noise = problem.model.noise,
+          .noise = with_drift_limits(problem, coordinates),
           .change_cost = change_cost_of(errors),
           .change_times = change_times_of(errors),
           .change_reach_s = change_reach_s(problem.windows),

@@ -155,4 +155,15 @@ SearchPoint with_windows(const LogProblem& problem, const SearchPoint& point,
   return part;
 }
 
+double fastest_of(const LogProblem& problem, LogChannel channel) {
+  double largest = 0.0;
+  const DrivingLog* last = nullptr;
+  for (const FitWindow& window : problem.windows) {
+    if (window.rows.log == last) continue;
+    last = window.rows.log;
+    largest = std::max(largest, largest_measured(*last, channel));
+  }
+  return largest > 0.0 ? largest : 1.0;
+}
+
 }  // namespace awmr

@@ -124,4 +124,7 @@ struct Solved {
 /// convergence after 60 steps, at the limit of work (Effort) or at the deadline.
 Solved solve(const LogProblem& problem, SearchPoint from, double function_tolerance);
 
+/// Largest absolute value that was measured of a channel; 1 if nothing was measured.
+double fastest_of(const LogProblem& problem, LogChannel channel);
+
 }  // namespace awmr

@@ -72,6 +72,7 @@ constexpr KindInfo kKinds[] = {
     {kForceExponentName, {0.2, 1.0}, 0.1, Scale::kLogarithmic},
     {kForceSaturationName, {0.0, 0.95}},
     {kSaturationSharpnessName, {1.0, 20.0}, 1.0, Scale::kLogarithmic},
+    {kSupplySagName, {0.0, 0.5}},
     {"", {}},
     {kBiasPrefix, {-1e6, 1e6}, 1.0},
     {kSensorDelayPrefix, {0.0, 1.0}},
@@ -86,8 +87,10 @@ constexpr KindInfo kKinds[] = {
     {kPositionAheadName, {-5.0, 5.0}},
     {kPositionLeftName, {-5.0, 5.0}},
     {kCompassSinName, {-0.5, 0.5}},
-    {kCompassCosName, {-0.5, 0.5}}};
-static_assert(std::size(kKinds) == at(FreeQuantity::Kind::kCompassCos) + 1);
+    {kCompassCosName, {-0.5, 0.5}},
+    {kCompassSin2Name, {-0.5, 0.5}},
+    {kCompassCos2Name, {-0.5, 0.5}}};
+static_assert(std::size(kKinds) == at(FreeQuantity::Kind::kCompassCos2) + 1);
 
 Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& vehicle) {
   if (quantity.kind == FreeQuantity::Kind::kParameter) {
@@ -145,6 +148,12 @@ FreeQuantity servo_rate(double begin_radps) {
 
 FreeQuantity force_saturation(double full_command) {
   FreeQuantity quantity = free_term(FreeQuantity::Kind::kForceSaturation);
+  quantity.full_command = full_command;
+  return quantity;
+}
+
+FreeQuantity supply_sag(double full_command) {
+  FreeQuantity quantity = free_term(FreeQuantity::Kind::kSupplySag);
   quantity.full_command = full_command;
   return quantity;
 }

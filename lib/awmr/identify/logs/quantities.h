@@ -68,10 +68,18 @@ struct FreeQuantity {
     /// or a weak battery reduce large ones.
     kForceSaturation,
     kSaturationSharpness,  ///< n of the saturation: the larger n, the more sudden the limit
-    kExtraForce,           ///< a force that the model does not contain (extra_forces.h)
-    kBias,                 ///< constant offset of a channel
-    kSensorDelay,          ///< latency of a channel, s
-    kSensorLag,            ///< time constant of a low-pass filter of a channel, s
+    /// Sag of the supply: the share L, in [0, 0.5], of both forces that is lost if both commands
+    /// have the magnitude F'm, the largest command of the logs. The current of each motor lowers
+    /// the voltage of the common battery. The commands F'_i give the forces
+    ///
+    ///     F'_i (1 - L (|F'_left| + |F'_right|)/(2 F'm))
+    ///
+    /// (times F_max).
+    kSupplySag,
+    kExtraForce,   ///< a force that the model does not contain (extra_forces.h)
+    kBias,         ///< constant offset of a channel
+    kSensorDelay,  ///< latency of a channel, s
+    kSensorLag,    ///< time constant of a low-pass filter of a channel, s
     /// Damping zeta of the low-pass filter of a channel, which this quantity makes a filter of
     /// second order (filtered_channel.h).
     kLagDamping,
@@ -96,12 +104,15 @@ struct FreeQuantity {
     ///     x + x_a cos psi - y_a sin psi,   y + x_a sin psi + y_a cos psi
     kPositionAhead,
     kPositionLeft,
-    /// Deviation of a compass by the magnetism of the vehicle ("hard iron"). With the heading psi
-    /// and the coefficients B (kCompassSin) and C (kCompassCos), rad, it reads
+    /// Deviation of a compass by magnetic parts of the vehicle: semicircular by permanent magnetism
+    /// ("hard iron", B and C), quadrantal by induced magnetism ("soft iron", D and E). With the
+    /// heading psi and these coefficients, rad (kCompassSin to kCompassCos2), it reads
     ///
-    ///     psi + B sin psi + C cos psi
+    ///     psi + B sin psi + C cos psi + D sin 2 psi + E cos 2 psi
     kCompassSin,
-    kCompassCos
+    kCompassCos,
+    kCompassSin2,
+    kCompassCos2
   };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< for kParameter
@@ -117,7 +128,8 @@ struct FreeQuantity {
   ///     slip or offset (m);
   ///   - 0.5 for a slope (m/s^2), 0.01 for smoothing (s^2).
   double large_change = 1.0;
-  double full_command = 1.0;  ///< largest command F'm, > 0 (for kForceSaturation)
+  /// Largest command F'm of the logs, > 0 (for kForceSaturation and kSupplySag).
+  double full_command = 1.0;
   double fastest = 1.0;  ///< largest speed of the logs, m/s or rad/s (for a Stribeck speed scale)
   bool is_at_rows = false;    ///< true: the filter makes one step per row of a log (for kSensorLag)
   bool is_mean = false;       ///< true: moving average; false: Gaussian kernel (for kSmoothing)
@@ -182,6 +194,9 @@ FreeQuantity servo_rate(double begin_radps);
 /// Saturation of the wheel forces. `full_command`: largest command F'm of the logs, > 0.
 FreeQuantity force_saturation(double full_command);
 inline constexpr double kDefaultSharpness = 4.0;  ///< n in fits that do not estimate it
+
+/// Sag of the supply. `full_command`: as above.
+FreeQuantity supply_sag(double full_command);
 
 /// A force that the model does not contain (extra_forces.h), except the speed scale of Stribeck
 /// friction: for that, call stribeck_speed_term().

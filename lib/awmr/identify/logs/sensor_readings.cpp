@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "awmr/core/containers.h"
 #include "awmr/core/index.h"
@@ -12,6 +13,19 @@ namespace awmr {
 namespace {
 
 using Kind = FreeQuantity::Kind;
+
+/// Part of the deviation of a compass: its coefficient `kind` times sin(n psi + phase).
+struct Deviation {
+  Kind kind;
+  double n;
+  double phase_rad;
+
+  double angle(double heading_rad) const { return n * heading_rad + phase_rad; }
+};
+constexpr Deviation kDeviations[] = {{Kind::kCompassSin, 1.0, 0.0},
+                                     {Kind::kCompassCos, 1.0, std::numbers::pi / 2.0},
+                                     {Kind::kCompassSin2, 2.0, 0.0},
+                                     {Kind::kCompassCos2, 2.0, std::numbers::pi / 2.0}};
 
 }  // namespace
 
@@ -123,20 +137,23 @@ double SensorReadings::add_antenna(LogChannel c, const LinearMotion& motion) {
   return x_m * by_ahead + y_m * by_left;
 }
 
-/// Deviation B sin psi + C cos psi of a compass (FreeQuantity::Kind::kCompassSin). Adds its
-/// derivatives to the row, the derivatives of psi.
+/// Deviation B sin psi + C cos psi + D sin 2 psi + E cos 2 psi of a compass
+/// (FreeQuantity::Kind::kCompassSin). Adds its derivatives to the row, the derivatives of psi.
 double SensorReadings::add_deviation(double heading_rad) {
-  const auto& of_sine = terms_.mounting[Kind::kCompassSin];
-  const auto& of_cosine = terms_.mounting[Kind::kCompassCos];
-  if (!of_sine && !of_cosine) return 0.0;
-  const double b = terms_.mounting.value(Kind::kCompassSin);
-  const double c = terms_.mounting.value(Kind::kCompassCos);
-  const double sine = std::sin(heading_rad);
-  const double cosine = std::cos(heading_rad);
-  for (double& by : row_) by *= 1.0 + b * cosine - c * sine;
-  if (!row_.empty() && of_sine) row_[of_sine->column] += sine;
-  if (!row_.empty() && of_cosine) row_[of_cosine->column] += cosine;
-  return b * sine + c * cosine;
+  double deviation = 0.0;
+  double by_heading = 1.0;
+  for (const Deviation& part : kDeviations) {
+    const double value = terms_.mounting.value(part.kind);
+    if (value == 0.0) continue;
+    deviation += value * std::sin(part.angle(heading_rad));
+    by_heading += value * part.n * std::cos(part.angle(heading_rad));
+  }
+  for (double& by : row_) by *= by_heading;
+  for (const Deviation& part : kDeviations) {
+    const auto& term = terms_.mounting[part.kind];
+    if (term && !row_.empty()) row_[term->column] += std::sin(part.angle(heading_rad));
+  }
+  return deviation;
 }
 
 /// Reading of the sensor of the sway speed, which may sit off the centre of gravity or at an angle

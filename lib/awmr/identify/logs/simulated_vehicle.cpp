@@ -45,7 +45,9 @@ void set_command_term(const FreeQuantity& q, double number, std::size_t i, const
   path.terms[q.kind] = {number, i};
   if (q.kind == Kind::kMotorLag) path.lag.emplace(log, window.rows.begin, window.rows.end, number);
   if (q.kind == Kind::kForceRise) path.terms.turns_slowly = q.turns_slowly;
-  if (q.kind == Kind::kForceSaturation) path.full_command = q.full_command;
+  if (q.kind == Kind::kForceSaturation || q.kind == Kind::kSupplySag) {
+    path.full_command = q.full_command;
+  }
 }
 
 /// Does the same for the sensor error that `q` describes, if any.

@@ -43,7 +43,7 @@ struct SensorTerms {
   std::array<std::optional<Smoothing>, kChannelCount> smoothing{};
   std::array<std::optional<TermColumn>, kChannelCount> scale{};
   std::vector<WheelSlip> slips;
-  TermColumns mounting;  ///< kSwayOffset to kCompassCos
+  TermColumns mounting;  ///< kSwayOffset to kCompassCos2
 
   bool any_delayed() const;
   bool any_smoothed() const;

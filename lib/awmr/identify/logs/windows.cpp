@@ -82,10 +82,12 @@ std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs, double l
 
 std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s) {
   constexpr double kShortestRows = 3.0;
+  constexpr double kTolerance = 0.01;  // a window that is hardly longer stays one part
   const auto [log, begin, end] = window.rows;
   const double span_s = log->t_s[end - 1] - log->t_s[begin];
   const double most = std::max(1.0, std::floor(static_cast<double>(end - begin) / kShortestRows));
-  const auto count = static_cast<std::size_t>(std::clamp(std::ceil(span_s / longest_s), 1.0, most));
+  const auto count =
+      static_cast<std::size_t>(std::clamp(std::ceil(span_s / longest_s - kTolerance), 1.0, most));
   std::vector<FitWindow> parts;
   for (std::size_t part = 0; part < count; ++part) {
     const LogWindow rows{log, begin + (end - begin) * part / count,
