@@ -888,25 +888,32 @@ TEST_P(ForceSaturation, IsCompensatedWithoutIntervals) {
     EXPECT_FALSE(result->model[id].ci95) << info(id).name;
   }
 }
-TEST(LateLog, FindsForcesThatGrowWithAPowerOfTheCommands) {
+/// Exponent of the command in the wheel force.
+class ForceExponent : public ::testing::TestWithParam<double> {};
+
+TEST_P(ForceExponent, IsFound) {
+  const double p = GetParam();
   const Truth& truth = kTruths[1];
   DrivingLog log = drive(truth, 8, {.duration_s = 30.0, .rate_hz = 40.0});
   for (auto* const forces : {&log.force_left, &log.force_right}) {
-    for (double& force : *forces) force = std::copysign(std::pow(std::abs(force), 1.25), force);
+    for (double& force : *forces) {
+      force = std::copysign(std::pow(std::abs(force), 1.0 / p), force);
+    }
   }
   TrialData data;
   data.logs = {std::move(log)};
   const auto result = identify(robot(), data, power_law(), {});
   ASSERT_TRUE(result);
-  EXPECT_TRUE(has_finding(*result, "force-saturation", "to the power of"));
+  EXPECT_TRUE(has_finding(*result, p < 1.0 ? "force-saturation" : "force-curve"));
   const auto exponent = estimated(*result, "motor.exponent");
   ASSERT_TRUE(exponent);
-  EXPECT_NEAR(exponent->value, 0.8, 0.02);
+  EXPECT_NEAR(exponent->value, p, 0.025 * p);
   EXPECT_FALSE(has_finding(*result, "model-inadequate"));
   const Estimate& mass = result->model[ParameterId::kMassNorm];
   EXPECT_NEAR(mass.value.value_or(0.0), truth.mass_norm, 0.02 * truth.mass_norm);
   EXPECT_FALSE(mass.ci95);
 }
+INSTANTIATE_TEST_SUITE_P(Some, ForceExponent, ::testing::Values(0.8, 1.5));
 
 /// The motors saturate like tanh, which the fitted saturation does not describe exactly. The
 /// estimates therefore differ between logs. This difference must not be reported.

@@ -329,10 +329,11 @@ std::string exponent_text(const FoundTerm& exponent, const LogFit& fit) {
   const double p = exponent.quantity.value(exponent.value);
   return fmt::format(
       "the wheel force is proportional to the command to the power of {:.3f} +- {:.3f}: "
-      "large commands give less force than in proportion. The fit compensates for this{}, "
+      "{} commands give less force than in proportion{}. The fit compensates for this{}, "
       "but simulations and tuned gains assume proportional forces. As the force, record "
       "the command raised to the power of {:.2f}, with its sign",
-      p, p * exponent.error, without_intervals(fit), p);
+      p, p * exponent.error, p < 1.0 ? "large" : "small",
+      p < 1.0 ? "" : ", as with a throttle curve (\"expo\")", without_intervals(fit), p);
 }
 
 std::string saturation_text(const FoundTerm& loss, const LogFit& fit) {
@@ -413,7 +414,7 @@ bool has_implausible_imbalance(const LogFit& fit) {
 bool saturates_much(const LogFit& fit) {
   return fit.value_of(Kind::kForceSaturation).value_or(0.0) > kLinear ||
          fit.value_of(Kind::kSupplySag).value_or(0.0) > kLinear ||
-         1.0 - fit.value_of(Kind::kForceExponent).value_or(1.0) > kLinear;
+         std::abs(1.0 - fit.value_of(Kind::kForceExponent).value_or(1.0)) > kLinear;
 }
 
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
@@ -421,7 +422,9 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
   std::vector<Finding> findings;
   for (const TermFinding& one : kTermFindings) {
     for (const FoundTerm& term : found_terms(fit, one.kind)) {
-      findings.push_back({file, 0, Severity::kWarning, one.code, one.text(term, fit)});
+      const bool is_convex = one.kind == Kind::kForceExponent && term.value > 0.0;  // p > 1
+      findings.push_back(
+          {file, 0, Severity::kWarning, is_convex ? "force-curve" : one.code, one.text(term, fit)});
     }
   }
   for (const auto& more : {position_findings(fit, file), compass_findings(fit, file),
@@ -430,7 +433,8 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
   }
   if (!withdrawn) return findings;
   for (Finding& finding : findings) {
-    if (finding.code == "force-saturation" && saturates_much(fit)) continue;
+    const bool is_of_curve = finding.code == "force-saturation" || finding.code == "force-curve";
+    if (is_of_curve && saturates_much(fit)) continue;
     finding.message +=
         ". This value has no interval, because the intervals of this fit are withdrawn: a wrong "
         "model of the vehicle may have caused the value. Before you change the vehicle, remove the "

@@ -27,7 +27,6 @@ std::vector<CandidateTerm> candidate_terms(const LogProblem& problem, const Sear
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const double value = tests[i].value;
     if (channels[i].may_be_zero() && !(value > 0.0)) continue;
-    if (channels[i].kind == Kind::kForceExponent && !(value < 0.0)) continue;
     const double significance = std::abs(value) / tests[i].noise_error;
     if (significance > kWorthATry) {
       found.push_back({channels[i], value, significance, tests[i].gain});

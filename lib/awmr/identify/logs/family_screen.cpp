@@ -8,6 +8,7 @@
 #include "awmr/core/containers.h"
 #include "awmr/core/parallel.h"
 #include "awmr/identify/logs/back_emf.h"
+#include "awmr/identify/logs/log_setup.h"
 
 namespace awmr {
 
@@ -30,19 +31,19 @@ struct Neighbour {
   bool has_back_emf = false;
 };
 
-/// A delay of the commands and a lag of the motors. Leaves out those that the fit already
-/// estimates, and a lag that the vehicle file gives.
-std::vector<FreeTerm> late_terms(const FamilyFit& fit) {
+/// A delay of the commands, a lag of the motors, and low-pass filters of speed and yaw rate if
+/// other channels are measured too. Leaves out those that the fit already estimates, and a lag that
+/// the vehicle file gives.
+std::vector<FreeTerm> late_terms(const FamilyFit& fit, const std::vector<LogChannel>& filtered) {
   constexpr double kBegin_s = 0.05;
   std::vector<FreeTerm> terms;
-  for (const FreeQuantity& late :
-       {free_term(FreeQuantity::Kind::kDelay), free_term(FreeQuantity::Kind::kMotorLag)}) {
-    const bool is_known = late.kind == FreeQuantity::Kind::kMotorLag &&
-                          fit.options.vehicle.motor_time_constant_s.has_value();
-    const bool is_free = std::ranges::any_of(
-        fit.fit.quantities, [&](const FreeQuantity& q) { return q.kind == late.kind; });
-    if (!is_known && !is_free) terms.push_back({late, kBegin_s});
-  }
+  const std::vector<FreeQuantity>& quantities = fit.fit.quantities;
+  const auto add = [&](const FreeQuantity& late) {
+    if (!has(quantities, late.name())) terms.push_back({late, kBegin_s});
+  };
+  add(free_term(FreeQuantity::Kind::kDelay));
+  if (!fit.options.vehicle.motor_time_constant_s) add(free_term(FreeQuantity::Kind::kMotorLag));
+  for (const LogChannel channel : filtered) add(sensor_lag_of(channel));
   return terms;
 }
 
@@ -57,18 +58,32 @@ std::vector<FreeTerm> ramp_terms(const FamilyFit& fit) {
   return terms;
 }
 
+/// Speed and yaw rate, if they are measured, unless no other channel is: the filter of an only
+/// channel has the same effect as a motor lag.
+std::vector<LogChannel> filtered_channels(const std::vector<DrivingLog>& logs) {
+  std::vector<LogChannel> channels;
+  const auto is_measured = [&](LogChannel channel) { return is_logged(logs, {channel}); };
+  if (std::ranges::count_if(kChannels, is_measured) < 2) return channels;
+  for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
+    if (is_measured(channel)) channels.push_back(channel);
+  }
+  return channels;
+}
+
 /// Returns the models to try next. Each changes the family of an open axis, or adds one of
 /// late_terms() or ramp_terms(), or adds back-EMF if it is a candidate term. `is_done`: axis that
-/// was changed last and therefore stays (true: yaw, false: surge).
+/// was changed last and therefore stays (true: yaw, false: surge). `filtered`: channels that a
+/// sensor filter may have delayed.
 std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
-                                     std::optional<bool> is_done) {
+                                     std::optional<bool> is_done,
+                                     const std::vector<LogChannel>& filtered) {
   const Families families{fit.surge, fit.yaw};
   std::vector<Neighbour> neighbours;
   for (const bool of_yaw : {false, true}) {
     if (!open.has(of_yaw) || is_done == of_yaw) continue;
     for (const Families& other : other_families(families, of_yaw)) neighbours.push_back({other});
   }
-  for (const FreeTerm& term : late_terms(fit)) neighbours.push_back({families, {term}});
+  for (const FreeTerm& term : late_terms(fit, filtered)) neighbours.push_back({families, {term}});
   for (const FreeTerm& term : ramp_terms(fit)) neighbours.push_back({families, {term}});
   if (contains(fit.options.candidate_terms, ParameterId::kBackEmf)) {
     neighbours.push_back({.families = families, .has_back_emf = true});
@@ -89,9 +104,10 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
   constexpr int kMostChanges = 8;
   const FamilyFit same = fit_roughly_from(logs, power_law, first, first.surge, first.yaw, {});
   FamilyFit best = same;
+  const std::vector<LogChannel> filtered = filtered_channels(logs);
   std::optional<bool> changed_yaw;  // axis that was changed last (true: yaw)
   for (int changes = 0; changes < kMostChanges && !is_over(power_law); ++changes) {
-    const std::vector<Neighbour> neighbours = neighbours_of(best, open, changed_yaw);
+    const std::vector<Neighbour> neighbours = neighbours_of(best, open, changed_yaw, filtered);
     std::vector<FamilyFit> fits(neighbours.size());
     parallel_for(fits.size(), power_law.threads, [&](std::size_t i) {
       const auto& [families, more, has_back_emf] = neighbours[i];

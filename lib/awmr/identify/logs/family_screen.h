@@ -29,8 +29,8 @@ struct OpenAxes {
 /// Selects families by rough fits (fit_roughly()), starting at the optimum of `first`. Each round
 /// tries, for each open axis (surge or yaw), every family that the axis does not have yet; the axis
 /// that was changed last is left out. A round also tries what a wrong family can imitate: a delay
-/// of the commands, a lag of the motors, ramps of the forces, and back-EMF if that is a candidate
-/// term of `power_law`. The best change is kept if it lowers LogFit::relative_error by more than 2
+/// of the commands, a lag of the motors, a filter of speed or yaw rate, ramps of the forces, and
+/// back-EMF if that is a candidate term of `power_law`. The best change is kept if it lowers LogFit::relative_error by more than 2
 /// % (back-EMF: by a third). There are at most eight rounds.
 ///
 /// E is the amount by which LogFit::relative_error exceeds 1, its value for sensor noise alone.
@@ -40,7 +40,7 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
                           const FamilyFit& first, const OpenAxes& open);
 
 /// Fits the families and the back-EMF of the rough fit `rough`, starting at its optimum, but
-/// with its ramps, but without its delay and lag. Then searches delays and command errors, and
+/// with its ramps, but without its delay and lags. Then searches delays and command errors, and
 /// tests the candidate terms of `power_law`.
 FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                  const FamilyFit& rough);

@@ -21,8 +21,7 @@ namespace awmr {
 ///   - a dead band, an asymmetry and a curve of the steering, if it moves by logged commands;
 ///   - the scale of the steering angles, if the fit has such an asymmetry or curve;
 ///   - a force imbalance, if left and right forces differ;
-///   - a saturation of the forces, an exponent below 1, or a supply sag if left and right forces
-///     differ;
+///   - a saturation or an exponent of the forces, or a supply sag if left and right forces differ;
 ///   - ramps by which the forces rise or fall;
 ///   - forces of extra_forces.h (add_forces() in further_terms.cpp);
 ///   - a scale error of the yaw rate if the heading or a position is measured, and of the speed if

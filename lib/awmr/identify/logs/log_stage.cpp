@@ -200,9 +200,9 @@ bool report_change(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
 /// Adds to the findings about forces that the model lacks that a change within the log explains
 /// them as well.
 void doubt_force_terms(std::vector<Finding>& findings) {
-  constexpr std::string_view kOfForces[] = {"force-saturation", "side-pull",     "axle-offset",
-                                            "turn-drag",        "backward-drag", "brake-force",
-                                            "reverse-force"};
+  constexpr std::string_view kOfForces[] = {"force-saturation", "force-curve",  "side-pull",
+                                            "axle-offset",      "turn-drag",    "backward-drag",
+                                            "brake-force",      "reverse-force"};
   for (Finding& finding : findings) {
     if (!contains(kOfForces, finding.code)) continue;
     finding.message +=

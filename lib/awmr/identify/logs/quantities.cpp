@@ -69,7 +69,7 @@ constexpr KindInfo kKinds[] = {
     {kSteeringScaleName, {-0.5, 0.5}},
     {kServoRateName, {0.01, 100.0}},
     {kForceImbalanceName, {-0.5, 0.5}},
-    {kForceExponentName, {0.2, 1.0}, 0.1, Scale::kLogarithmic},
+    {kForceExponentName, {0.2, 3.0}, 0.1, Scale::kLogarithmic},
     {kForceSaturationName, {0.0, 0.95}},
     {kSaturationSharpnessName, {1.0, 20.0}, 1.0, Scale::kLogarithmic},
     {kSupplySagName, {0.0, 0.5}},

@@ -56,8 +56,6 @@ struct FreeQuantity {
     /// the right motors 1 + e times.
     kForceImbalance,
     /// Exponent p of the wheel forces: the command F' gives the force |F'|^p sgn F' (times F_max).
-    /// The search tries only p below 1. For p above 1, the curve resembles a dead zone of the
-    /// wheels, for which there is a resistance family.
     kForceExponent,
     /// Saturation of the wheel forces: the share L, in [0, 1), of the force that is lost at F'm,
     /// the largest command of the logs. With w = (|F'|/F'm)^n, the command F' gives the force
