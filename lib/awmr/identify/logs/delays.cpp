@@ -222,40 +222,46 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   LowestAic lowest(settled);
   // Fit with the most significant candidate, if above kBeyondDoubt.
   std::optional<NoiseIteration> strongest;
+  std::vector<std::string> partners;  // terms that were tried together with another candidate
   bool has_sensor = false;
   std::vector<std::pair<LogChannel, double>> filters;
   double delay_s = 0.0;
   const std::vector<CandidateTerm> terms = candidate_terms(settled.problem, settled.point);
+  if (terms.empty()) return std::nullopt;
+  const NoiseIteration start = start_of_trials(settled);
   for (const CandidateTerm& candidate_term : terms) {
     if (lowest.best() && candidate_term.significance < kComparable * terms.front().significance)
       break;
     const FreeQuantity& more = candidate_term.quantity;
     if (more.kind == Kind::kSmoothing) continue;  // consider_smoothing()
+    if (contains(partners, more.name())) continue;
     const bool is_sensor = more.kind == Kind::kSensorDelay;
     if (is_sensor && has_sensor) continue;
-    NoiseIteration fit = tried(settled, with_companion(settled.problem, candidate_term));
+    const std::vector<FreeTerm> added = with_companion(settled.problem, candidate_term);
+    if (added.size() == 2) partners.push_back(added.back().quantity.name());
+    NoiseIteration fit = tried(start, added);
     if ((more.is(ExtraForce::kTurnDrag) || more.is_ramp()) && has_wrong_term(fit, settled)) {
       continue;
     }
     const double found_s = fit.point.coordinates.back();
-    consider_angle_beyond_stop(settled, candidate_term, fit, lowest);
+    consider_angle_beyond_stop(start, candidate_term, fit, lowest);
     if (&candidate_term == &terms.front() && candidate_term.significance > kBeyondDoubt) {
       strongest = fit;
     }
     has_sensor |= lowest.consider(std::move(fit)) && is_sensor;
-    consider_slip_of_both(settled, terms, candidate_term, lowest);
+    consider_slip_of_both(start, terms, candidate_term, lowest);
     if (more.kind == Kind::kDelay) {
-      consider_motor_lag(settled, found_s, lowest);
+      consider_motor_lag(start, found_s, lowest);
       delay_s = found_s;
     }
     if (found_s > 0.0 && is_sensor && is_often_filtered(more.channel)) {
       filters.emplace_back(more.channel, found_s);
     }
   }
-  consider_filters(settled, filters, lowest);
-  if (delay_s > 0.0) consider_filters_of_both(settled, delay_s, lowest);
-  auto smoothed = consider_smoothing(settled, terms, lowest);
-  if (!strongest && !terms.empty() && terms.front().significance > kBeyondDoubt &&
+  consider_filters(start, filters, lowest);
+  if (delay_s > 0.0) consider_filters_of_both(start, delay_s, lowest);
+  auto smoothed = consider_smoothing(start, terms, lowest);
+  if (!strongest && terms.front().significance > kBeyondDoubt &&
       terms.front().quantity.kind == Kind::kSmoothing) {
     strongest = std::move(smoothed);
   }

@@ -1,14 +1,15 @@
 #include "awmr/identify/logs/family_screen.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "awmr/core/containers.h"
 #include "awmr/core/parallel.h"
 #include "awmr/identify/logs/back_emf.h"
 #include "awmr/identify/logs/log_setup.h"
+#include "awmr/identify/logs/multistart.h"
 
 namespace awmr {
 
@@ -24,6 +25,8 @@ std::vector<Families> other_families(const Families& from, bool of_yaw) {
 
 namespace {
 
+using Kind = FreeQuantity::Kind;
+
 /// A model that differs from the current one in one family, by one additional term, or by back-EMF.
 struct Neighbour {
   Families families;
@@ -31,29 +34,53 @@ struct Neighbour {
   bool has_back_emf = false;
 };
 
-/// A delay of the commands, a lag of the motors, and low-pass filters of speed and yaw rate if
-/// other channels are measured too. Leaves out those that the fit already estimates, and a lag that
-/// the vehicle file gives.
-std::vector<FreeTerm> late_terms(const FamilyFit& fit, const std::vector<LogChannel>& filtered) {
+/// A term that a round may add, and the quantity that the score test takes in its place: for a lag,
+/// which has no score test, the delay with nearly the same effect.
+struct TermTrial {
+  FreeTerm term;
+  FreeQuantity tested;
+};
+
+/// A delay of the commands, a lag of the motors, filters of the channels `filtered`, and ramps of
+/// the forces. Leaves out terms that the fit estimates, and a lag that the vehicle file gives.
+std::vector<TermTrial> term_trials(const FamilyFit& fit, const std::vector<LogChannel>& filtered) {
   constexpr double kBegin_s = 0.05;
-  std::vector<FreeTerm> terms;
-  const std::vector<FreeQuantity>& quantities = fit.fit.quantities;
-  const auto add = [&](const FreeQuantity& late) {
-    if (!has(quantities, late.name())) terms.push_back({late, kBegin_s});
-  };
-  add(free_term(FreeQuantity::Kind::kDelay));
-  if (!fit.options.vehicle.motor_time_constant_s) add(free_term(FreeQuantity::Kind::kMotorLag));
-  for (const LogChannel channel : filtered) add(sensor_lag_of(channel));
-  return terms;
+  constexpr double kBeginOfRamp_s = 0.3;
+  const FreeQuantity delay = free_term(Kind::kDelay);
+  std::vector<TermTrial> trials{{{delay, kBegin_s}, delay}};
+  if (!fit.options.vehicle.motor_time_constant_s) {
+    trials.push_back({{free_term(Kind::kMotorLag), kBegin_s}, delay});
+  }
+  for (const LogChannel channel : filtered) {
+    trials.push_back({{sensor_lag_of(channel), kBegin_s}, free_term(Kind::kSensorDelay, channel)});
+  }
+  for (const FreeQuantity& ramp :
+       {force_rise(false), force_rise(true), free_term(Kind::kForceFall)}) {
+    trials.push_back({{ramp, kBeginOfRamp_s}, ramp});
+  }
+  std::erase_if(trials, [&](const TermTrial& trial) {
+    return has(fit.fit.quantities, trial.term.quantity.name());
+  });
+  return trials;
 }
 
-/// Ramps of the forces, rising and falling, that the fit does not yet estimate.
-std::vector<FreeTerm> ramp_terms(const FamilyFit& fit) {
-  constexpr double kBegin_s = 0.3;
+/// The terms of term_trials() for which a score test predicts that they lower the sum of squared
+/// errors of the rough fit by at least 1 %.
+std::vector<FreeTerm> promising_terms(const std::vector<DrivingLog>& logs, const FamilyFit& rough,
+                                      const std::vector<LogChannel>& filtered) {
+  constexpr double kWorthATry = 0.01;
+  const std::vector<TermTrial> trials = term_trials(rough, filtered);
+  std::vector<FreeQuantity> tested;
+  for (const TermTrial& trial : trials) tested.push_back(trial.tested);
+  const LogProblem problem = rough_problem(log_problem(logs, rough.options));
+  const std::vector<ScoreTest> tests =
+      score_test(problem, {rough.fit.coordinates, rough.fit.initial_states}, tested);
+  const double squares = rough.fit.relative_error * problem.readings();
   std::vector<FreeTerm> terms;
-  for (const FreeQuantity& ramp :
-       {force_rise(false), force_rise(true), free_term(FreeQuantity::Kind::kForceFall)}) {
-    if (!has(fit.fit.quantities, ramp.kind)) terms.push_back({ramp, kBegin_s});
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const bool is_in_range = trials[i].term.quantity.kind == Kind::kDelay || tests[i].value > 0.0;
+    const double decrease = std::pow(tests[i].value / tests[i].noise_error, 2);
+    if (is_in_range && decrease > kWorthATry * squares) terms.push_back(trials[i].term);
   }
   return terms;
 }
@@ -70,21 +97,17 @@ std::vector<LogChannel> filtered_channels(const std::vector<DrivingLog>& logs) {
   return channels;
 }
 
-/// Returns the models to try next. Each changes the family of an open axis, or adds one of
-/// late_terms() or ramp_terms(), or adds back-EMF if it is a candidate term. `is_done`: axis that
-/// was changed last and therefore stays (true: yaw, false: surge). `filtered`: channels that a
-/// sensor filter may have delayed.
+/// Returns the models to try next. Each changes the family of an open axis, or adds one of `terms`,
+/// or adds back-EMF if it is a candidate term.
 std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
-                                     std::optional<bool> is_done,
-                                     const std::vector<LogChannel>& filtered) {
+                                     const std::vector<FreeTerm>& terms) {
   const Families families{fit.surge, fit.yaw};
   std::vector<Neighbour> neighbours;
   for (const bool of_yaw : {false, true}) {
-    if (!open.has(of_yaw) || is_done == of_yaw) continue;
+    if (!open.has(of_yaw)) continue;
     for (const Families& other : other_families(families, of_yaw)) neighbours.push_back({other});
   }
-  for (const FreeTerm& term : late_terms(fit, filtered)) neighbours.push_back({families, {term}});
-  for (const FreeTerm& term : ramp_terms(fit)) neighbours.push_back({families, {term}});
+  for (const FreeTerm& term : terms) neighbours.push_back({families, {term}});
   if (contains(fit.options.candidate_terms, ParameterId::kBackEmf)) {
     neighbours.push_back({.families = families, .has_back_emf = true});
   }
@@ -105,9 +128,10 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
   const FamilyFit same = fit_roughly_from(logs, power_law, first, first.surge, first.yaw, {});
   FamilyFit best = same;
   const std::vector<LogChannel> filtered = filtered_channels(logs);
-  std::optional<bool> changed_yaw;  // axis that was changed last (true: yaw)
+  OpenAxes now = open;  // without the axis that was changed last
   for (int changes = 0; changes < kMostChanges && !is_over(power_law); ++changes) {
-    const std::vector<Neighbour> neighbours = neighbours_of(best, open, changed_yaw, filtered);
+    const std::vector<Neighbour> neighbours =
+        neighbours_of(best, now, promising_terms(logs, best, filtered));
     std::vector<FamilyFit> fits(neighbours.size());
     parallel_for(fits.size(), power_law.threads, [&](std::size_t i) {
       const auto& [families, more, has_back_emf] = neighbours[i];
@@ -124,9 +148,8 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
         !(least->fit.relative_error < kClearlyLess * best.fit.relative_error)) {
       break;
     }
-    changed_yaw.reset();
-    if (least->yaw != best.yaw) changed_yaw = true;
-    if (least->surge != best.surge) changed_yaw = false;
+    now = {.surge = open.surge && least->surge == best.surge,
+           .yaw = open.yaw && least->yaw == best.yaw};
     best = std::move(*least);
   }
   // If the best families decrease the errors only a little, the errors have another cause, such as

@@ -329,6 +329,7 @@ LogFit fit_roughly(const std::vector<DrivingLog>& logs, const LogFitOptions& opt
   LogFit fit;
   fit.quantities = rough.model.quantities;
   fit.coordinates = solved.point.coordinates;
+  fit.initial_states = solved.point.initial_states;
   fit.relative_error = solved.usable ? 2.0 * solved.cost / rough.readings()
                                      : std::numeric_limits<double>::infinity();
   return fit;

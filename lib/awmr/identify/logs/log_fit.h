@@ -92,8 +92,9 @@ struct LogFit {
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
 /// Makes a quick fit, only to rank models: one search from the initial guess, with short parts of
-/// the logs and long integration steps (rough_problem()). Sets only `quantities`, `coordinates` and
-/// `relative_error` of the result. `relative_error` is infinite if the search fails.
+/// the logs and long integration steps (rough_problem()). Sets only `quantities`, `coordinates`,
+/// `initial_states` and `relative_error` of the result. `relative_error` is infinite if the search
+/// fails.
 LogFit fit_roughly(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
 /// Returns the options with the delays and command errors of `fit` as free terms, starting at their

@@ -16,12 +16,17 @@ namespace awmr {
 /// constant that depends only on the logs. n: number of free quantities.
 double akaike_of(const NoiseIteration& fit);
 
-/// Adds the terms `more` to the estimated quantities of the converged fit `settled`, and makes a
-/// short fit (one round). The fit starts with white noise in place of drift, because drift could
+/// Adds the terms `more` to the estimated quantities of the fit `settled`, and makes a short fit (one
+/// round). The fit starts with white noise in place of drift, because drift could
 /// absorb the effect of the terms. Initial guesses are limited to three large changes
 /// (FreeQuantity::large_change), except for quantities that only describe a form
 /// (FreeQuantity::is_form()).
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more);
+
+/// The converged fit `settled`, moved to the optimum with white noise in place of drift, from which
+/// trials (tried()) of several terms start. Without this step, each trial would first make the same
+/// search for that optimum.
+NoiseIteration start_of_trials(NoiseIteration settled);
 
 /// Makes a converged fit that starts at `from`. Empty unless its AIC is lower than that of
 /// `settled` by more than 10.
