@@ -5,8 +5,10 @@
 #include <functional>
 #include <iterator>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/identify/logs/further_terms.h"
 #include "awmr/identify/logs/steering_linkage.h"
 #include "awmr/identify/logs/term_trials.h"
@@ -37,48 +39,6 @@ std::vector<CandidateTerm> candidate_terms(const LogProblem& problem, const Sear
 }
 
 namespace {
-
-/// A filter is kept only if its AIC is lower than that of the best fit so far by more than this.
-constexpr double kLikelierFilter = 10.0;
-
-/// Tries a low-pass filter in place of the delay of each channel in `lags_s`, with the same delay
-/// as the initial guess. Here and below: `settled` is the converged fit without the new terms, and
-/// `lowest` keeps the best fit so far. Each channel gets four trials: filters of first and of second
-/// order, both continuous or with a step per row.
-void consider_filters(const NoiseIteration& settled,
-                      const std::vector<std::pair<LogChannel, double>>& lags_s, LowestAic& lowest) {
-  // If the speed is the only channel, its filter has the same effect as a motor lag, which is more
-  // common and therefore preferred.
-  if (settled.problem.model.noise.size() <= 1) return;
-  for (const auto& [channel, lag_s] : lags_s) {
-    NoiseIteration best = tried(settled, {{sensor_lag_of(channel), lag_s}});
-    for (const std::vector<FreeTerm>& other :
-         {std::vector<FreeTerm>{{sensor_lag_of(channel, true), lag_s}},
-          second_order_lag_of(channel, lag_s), second_order_lag_of(channel, lag_s, true)}) {
-      NoiseIteration fit = tried(settled, other);
-      if (akaike_of(fit) < akaike_of(best)) best = std::move(fit);
-    }
-    lowest.consider(std::move(best), kLikelierFilter);
-  }
-}
-
-/// Tries filters of second order of speed and yaw rate together in place of a delay of the commands
-/// of `delay_s`, because one program (an odometry or tracking filter) often computes both. A filter
-/// of only one of them cannot replace a delay that both show.
-void consider_filters_of_both(const NoiseIteration& settled, double delay_s, LowestAic& lowest) {
-  const LogModel& model = settled.problem.model;
-  for (const bool is_at_rows : {false, true}) {
-    std::vector<FreeTerm> terms;
-    for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
-      if (!model.noise.contains(channel)) return;
-      if (has_kind(model.quantities, Kind::kSensorLag, channel)) return;
-      for (const FreeTerm& term : second_order_lag_of(channel, delay_s, is_at_rows)) {
-        terms.push_back(term);
-      }
-    }
-    lowest.consider(tried(settled, terms), kLikelierFilter);
-  }
-}
 
 /// The candidate, followed by terms that make sense only together with it, for example the speed
 /// scale of Stribeck friction.
@@ -136,35 +96,13 @@ bool has_wrong_term(const NoiseIteration& fit, const NoiseIteration& settled) {
   return is_turn_drag_of_any_rate(fit);
 }
 
+/// A filter is kept only if its AIC is lower than that of the best fit so far by more than this.
+constexpr double kLikelierFilter = 10.0;
 /// A candidate term is tried only if its significance is at least this fraction of that of the most
 /// significant candidate. Weaker candidates wait, to save time: the search tests them again after
 /// it has added the best term.
 constexpr double kComparable = 0.2;
 constexpr double kBeyondDoubt = 20.0;
-
-/// Tries smoothing of the channels whose smoothing is a candidate term: of all these channels
-/// together, because one program often smooths several channels, and of only the most significant
-/// one. Makes each trial with a Gaussian kernel and with a moving average. Returns the trial of all
-/// channels with a Gaussian kernel.
-std::optional<NoiseIteration> consider_smoothing(const NoiseIteration& settled,
-                                                 const std::vector<CandidateTerm>& terms,
-                                                 LowestAic& lowest) {
-  std::optional<NoiseIteration> first;
-  for (const bool is_mean : {false, true}) {
-    std::vector<FreeTerm> smoothing;
-    for (const CandidateTerm& term : terms) {
-      if (term.quantity.kind != Kind::kSmoothing) continue;
-      if (term.significance < kComparable * terms.front().significance) break;
-      smoothing.push_back({smoothing_of(term.quantity.channel, is_mean), term.value});
-    }
-    if (smoothing.empty()) break;
-    NoiseIteration all = tried(settled, smoothing);
-    if (!first) first = all;
-    lowest.consider(std::move(all));
-    if (smoothing.size() > 1) lowest.consider(tried(settled, {smoothing.front()}));
-  }
-  return first;
-}
 
 /// Returns slip of the speed and slip of the yaw rate, two terms with the form of `of_speed` (slip
 /// speed or slip ratio). Empty if this form of slip of the yaw rate is not a candidate.
@@ -177,96 +115,162 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
   return std::vector<FreeTerm>{{of_speed.quantity, of_speed.value}, {yaw, found->value}};
 }
 
-/// `found_s`: command delay, s, of the trial fit that has a delay but no motor lag. Makes up to two
-/// more trials, because a motor lag may have caused this delay: one with a motor lag and a delay,
-/// and, if `found_s` is positive, one with a motor lag alone. (A delay is negative if the time
-/// stamps of the commands are late.)
-void consider_motor_lag(const NoiseIteration& settled, double found_s, LowestAic& lowest) {
-  if (has_motor_lag(settled.problem.model)) return;
-  const FreeQuantity delay = free_term(Kind::kDelay);
-  const FreeQuantity lag = free_term(Kind::kMotorLag);
-  const double lag_s = 0.5 * std::abs(found_s);
-  lowest.consider(tried(settled, {{delay, found_s - lag_s}, {lag, lag_s}}));
-  if (found_s > 0.0) lowest.consider(tried(settled, {{lag, found_s}}));
-}
+/// Short fits (one round) of `settled` with each of its candidate terms.
+class TermTrials {
+ public:
+  explicit TermTrials(const NoiseIteration& settled)
+      : settled_(settled),
+        terms_(candidate_terms(settled.problem, settled.point)),
+        lowest_(settled) {}
 
-/// `fit` is a trial with an error of the steering linkage, in which the stop limits the angle. If
-/// the logs have commands near the stop, tries the same error with a stop that limits the command.
-void consider_angle_beyond_stop(const NoiseIteration& settled, const CandidateTerm& candidate,
-                                const NoiseIteration& fit, LowestAic& lowest) {
-  FreeTerm term{candidate.quantity, candidate.value};
-  if (!term.quantity.is_of_linkage() || !is_stop_reached(fit.problem, fit.point)) return;
-  term.quantity.is_beyond_stop = true;
-  lowest.consider(tried(settled, {term}));
-}
-
-/// If the candidate is slip of the speed, also tries slip of speed and yaw rate together, because
-/// the same wheel encoders often measure both.
-void consider_slip_of_both(const NoiseIteration& settled, const std::vector<CandidateTerm>& terms,
-                           const CandidateTerm& candidate, LowestAic& lowest) {
-  const FreeQuantity& quantity = candidate.quantity;
-  if (quantity.kind != Kind::kWheelSlip || quantity.channel != LogChannel::kSpeed) {
-    return;
+  /// Makes the trials, and returns the fit with the lowest AIC. If no term lowers AIC, returns the
+  /// fit with the most significant candidate if its score test exceeds 20 standard errors
+  /// (kBeyondDoubt), else empty. Reason: in one round, AIC may rise although the term has a large
+  /// effect, because the drift of the noise model had absorbed this effect before.
+  std::optional<NoiseIteration> likeliest() {
+    if (terms_.empty()) return std::nullopt;
+    start_ = start_of_trials(settled_);
+    for (const CandidateTerm& candidate : terms_) {
+      const bool is_weak = candidate.significance < kComparable * terms_.front().significance;
+      if (lowest_.best() && is_weak) break;
+      consider(candidate);
+    }
+    consider_filters();
+    if (delay_s_ > 0.0) consider_filters_of_both();
+    consider_smoothing();
+    return lowest_.best() ? std::move(lowest_.best()) : std::move(strongest_);
   }
-  if (const auto both = with_slip_of_yaw(terms, candidate)) {
-    lowest.consider(tried(settled, *both));
-  }
-}
 
-/// Makes a short fit (one round) with each candidate term, and returns the fit with the lowest AIC.
-/// If no term lowers AIC, returns the fit with the most significant candidate if its score test
-/// exceeds 20 standard errors (kBeyondDoubt), else empty. Reason: in one round, AIC may rise
-/// although the term has a large effect, because the drift of the noise model had absorbed this
-/// effect before.
-std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled) {
-  LowestAic lowest(settled);
-  // Fit with the most significant candidate, if above kBeyondDoubt.
-  std::optional<NoiseIteration> strongest;
-  std::vector<std::string> partners;  // terms that were tried together with another candidate
-  bool has_sensor = false;
-  std::vector<std::pair<LogChannel, double>> filters;
-  double delay_s = 0.0;
-  const std::vector<CandidateTerm> terms = candidate_terms(settled.problem, settled.point);
-  if (terms.empty()) return std::nullopt;
-  const NoiseIteration start = start_of_trials(settled);
-  for (const CandidateTerm& candidate_term : terms) {
-    if (lowest.best() && candidate_term.significance < kComparable * terms.front().significance)
-      break;
-    const FreeQuantity& more = candidate_term.quantity;
-    if (more.kind == Kind::kSmoothing) continue;  // consider_smoothing()
-    if (contains(partners, more.name())) continue;
+ private:
+  NoiseIteration trial(const std::vector<FreeTerm>& terms) const { return tried(start_, terms); }
+
+  void consider(const CandidateTerm& candidate) {
+    const FreeQuantity& more = candidate.quantity;
     const bool is_sensor = more.kind == Kind::kSensorDelay;
-    if (is_sensor && has_sensor) continue;
-    const std::vector<FreeTerm> added = with_companion(settled.problem, candidate_term);
-    if (added.size() == 2) partners.push_back(added.back().quantity.name());
-    NoiseIteration fit = tried(start, added);
-    if ((more.is(ExtraForce::kTurnDrag) || more.is_ramp()) && has_wrong_term(fit, settled)) {
-      continue;
-    }
+    const bool is_tried = contains(partners_, more.name()) || (is_sensor && has_sensor_delay_);
+    if (is_tried || more.kind == Kind::kSmoothing) return;  // consider_smoothing()
+    const std::vector<FreeTerm> added = with_companion(settled_.problem, candidate);
+    if (added.size() == 2) partners_.push_back(added.back().quantity.name());
+    NoiseIteration fit = trial(added);
+    const bool may_be_wrong = more.is(ExtraForce::kTurnDrag) || more.is_ramp();
+    if (may_be_wrong && has_wrong_term(fit, settled_)) return;
     const double found_s = fit.point.coordinates.back();
-    consider_angle_beyond_stop(start, candidate_term, fit, lowest);
-    if (&candidate_term == &terms.front() && candidate_term.significance > kBeyondDoubt) {
-      strongest = fit;
-    }
-    has_sensor |= lowest.consider(std::move(fit)) && is_sensor;
-    consider_slip_of_both(start, terms, candidate_term, lowest);
+    consider_angle_beyond_stop(candidate, fit);
+    if (is_beyond_doubt(candidate)) strongest_ = fit;
+    has_sensor_delay_ |= lowest_.consider(std::move(fit)) && is_sensor;
+    consider_slip_of_both(candidate);
     if (more.kind == Kind::kDelay) {
-      consider_motor_lag(start, found_s, lowest);
-      delay_s = found_s;
+      consider_motor_lag(found_s);
+      delay_s_ = found_s;
     }
     if (found_s > 0.0 && is_sensor && is_often_filtered(more.channel)) {
-      filters.emplace_back(more.channel, found_s);
+      filters_.emplace_back(more.channel, found_s);
     }
   }
-  consider_filters(start, filters, lowest);
-  if (delay_s > 0.0) consider_filters_of_both(start, delay_s, lowest);
-  auto smoothed = consider_smoothing(start, terms, lowest);
-  if (!strongest && terms.front().significance > kBeyondDoubt &&
-      terms.front().quantity.kind == Kind::kSmoothing) {
-    strongest = std::move(smoothed);
+
+  /// True for the most significant candidate, if its significance is above kBeyondDoubt.
+  bool is_beyond_doubt(const CandidateTerm& candidate) const {
+    return &candidate == &terms_.front() && candidate.significance > kBeyondDoubt;
   }
-  return lowest.best() ? std::move(lowest.best()) : std::move(strongest);
-}
+
+  /// `fit` is a trial with an error of the steering linkage, in which the stop limits the angle. If
+  /// the logs have commands near the stop, tries the same error with a stop that limits the
+  /// command.
+  void consider_angle_beyond_stop(const CandidateTerm& candidate, const NoiseIteration& fit) {
+    FreeTerm term{candidate.quantity, candidate.value};
+    if (!term.quantity.is_of_linkage() || !is_stop_reached(fit.problem, fit.point)) return;
+    term.quantity.is_beyond_stop = true;
+    lowest_.consider(trial({term}));
+  }
+
+  /// If the candidate is slip of the speed, also tries slip of speed and yaw rate together, because
+  /// the same wheel encoders often measure both.
+  void consider_slip_of_both(const CandidateTerm& candidate) {
+    const FreeQuantity& quantity = candidate.quantity;
+    if (quantity.kind != Kind::kWheelSlip || quantity.channel != LogChannel::kSpeed) return;
+    if (const auto both = with_slip_of_yaw(terms_, candidate)) lowest_.consider(trial(*both));
+  }
+
+  /// `found_s`: command delay, s, of the trial that has a delay but no motor lag. Makes up to two
+  /// more trials, because a motor lag may have caused this delay: one with a motor lag and a delay,
+  /// and, if `found_s` is positive, one with a motor lag alone. (A delay is negative if the time
+  /// stamps of the commands are late.)
+  void consider_motor_lag(double found_s) {
+    if (has_motor_lag(settled_.problem.model)) return;
+    const FreeQuantity delay = free_term(Kind::kDelay);
+    const FreeQuantity lag = free_term(Kind::kMotorLag);
+    const double lag_s = 0.5 * std::abs(found_s);
+    lowest_.consider(trial({{delay, found_s - lag_s}, {lag, lag_s}}));
+    if (found_s > 0.0) lowest_.consider(trial({{lag, found_s}}));
+  }
+
+  /// Tries a low-pass filter in place of the delay of each channel in filters_, with the same delay
+  /// as the initial guess. Each channel gets four trials: filters of first and of second order,
+  /// both continuous or with a step per row.
+  void consider_filters() {
+    // If the speed is the only channel, its filter has the same effect as a motor lag, which is
+    // more common and therefore preferred.
+    if (settled_.problem.model.noise.size() <= 1) return;
+    for (const auto& [channel, lag_s] : filters_) {
+      NoiseIteration best = trial({{sensor_lag_of(channel), lag_s}});
+      for (const std::vector<FreeTerm>& other :
+           {std::vector<FreeTerm>{{sensor_lag_of(channel, true), lag_s}},
+            second_order_lag_of(channel, lag_s), second_order_lag_of(channel, lag_s, true)}) {
+        NoiseIteration fit = trial(other);
+        if (akaike_of(fit) < akaike_of(best)) best = std::move(fit);
+      }
+      lowest_.consider(std::move(best), kLikelierFilter);
+    }
+  }
+
+  /// Tries filters of second order of speed and yaw rate together in place of a delay of the
+  /// commands, because one program (an odometry or tracking filter) often computes both. A filter
+  /// of only one of them cannot replace a delay that both show.
+  void consider_filters_of_both() {
+    const LogModel& model = settled_.problem.model;
+    for (const bool is_at_rows : {false, true}) {
+      std::vector<FreeTerm> both;
+      for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
+        if (!model.noise.contains(channel)) return;
+        if (has_kind(model.quantities, Kind::kSensorLag, channel)) return;
+        append(both, second_order_lag_of(channel, delay_s_, is_at_rows));
+      }
+      lowest_.consider(trial(both), kLikelierFilter);
+    }
+  }
+
+  /// Tries smoothing of the channels whose smoothing is a candidate term: of all these channels
+  /// together, because one program often smooths several channels, and of only the most significant
+  /// one. Makes each trial with a Gaussian kernel and with a moving average.
+  void consider_smoothing() {
+    for (const bool is_mean : {false, true}) {
+      std::vector<FreeTerm> smoothing;
+      for (const CandidateTerm& term : terms_) {
+        if (term.quantity.kind != Kind::kSmoothing) continue;
+        if (term.significance < kComparable * terms_.front().significance) break;
+        smoothing.push_back({smoothing_of(term.quantity.channel, is_mean), term.value});
+      }
+      if (smoothing.empty()) return;
+      NoiseIteration all = trial(smoothing);
+      const CandidateTerm& first = terms_.front();
+      if (!is_mean && first.quantity.kind == Kind::kSmoothing && is_beyond_doubt(first)) {
+        strongest_ = all;
+      }
+      lowest_.consider(std::move(all));
+      if (smoothing.size() > 1) lowest_.consider(trial({smoothing.front()}));
+    }
+  }
+
+  const NoiseIteration& settled_;
+  std::vector<CandidateTerm> terms_;  ///< most significant first
+  NoiseIteration start_{};            ///< start_of_trials()
+  LowestAic lowest_;
+  std::optional<NoiseIteration> strongest_;  ///< trial of the candidate that is_beyond_doubt()
+  std::vector<std::string> partners_;  ///< terms that were tried together with another candidate
+  bool has_sensor_delay_ = false;      ///< true: a trial with a sensor's delay lowered AIC
+  double delay_s_ = 0.0;               ///< command delay of its trial
+  std::vector<std::pair<LogChannel, double>> filters_;  ///< channels with a delay, s
+};
 
 bool is_of_turning(const FreeQuantity& q) {
   return q.kind == Kind::kSteeringTrim || q.kind == Kind::kForceImbalance;
@@ -288,7 +292,7 @@ Extended with_both_of_turning(NoiseIteration fit) {
 /// Returns a converged fit with one more free term. Empty if no term lowers AIC enough
 /// (settled_if_better()), or if the term is rejected (has_wrong_term()).
 std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled) {
-  std::optional<NoiseIteration> more = likeliest_with_one_more(settled);
+  std::optional<NoiseIteration> more = TermTrials(settled).likeliest();
   if (!more) return std::nullopt;
   more = settled_if_better(settled, with_both_of_turning(*std::move(more)));
   return more && !has_wrong_term(*more, settled) ? std::move(more) : std::nullopt;
