@@ -86,8 +86,9 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
   return settle_noise(std::move(from.problem), std::move(from.point), {.most = 1});
 }
 
-NoiseIteration start_of_trials(const NoiseIteration& settled) {
-  return settle_noise(with_white_noise(settled.problem), settled.point, {.most = 1});
+NoiseIteration start_of_trials(NoiseIteration settled) {
+  settled.point = settle_noise(with_white_noise(settled.problem), settled.point, {.most = 1}).point;
+  return settled;
 }
 
 std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, Extended from) {

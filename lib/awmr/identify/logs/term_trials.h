@@ -23,11 +23,10 @@ double akaike_of(const NoiseIteration& fit);
 /// (FreeQuantity::is_form()).
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more);
 
-/// A short fit (one round) of the terms of `settled`, with white noise in place of drift: the trials
-/// (tried()) of further terms start from it and are compared with it. Without it, each trial would
-/// first make the same search for this optimum, and could have a higher AIC than `settled` only
-/// because of white noise.
-NoiseIteration start_of_trials(const NoiseIteration& settled);
+/// The converged fit `settled`, moved to the optimum with white noise in place of drift, from which
+/// trials (tried()) of several terms start. Without this step, each trial would first make the same
+/// search for that optimum.
+NoiseIteration start_of_trials(NoiseIteration settled);
 
 /// Makes a converged fit that starts at `from`. Empty unless its AIC is lower than that of
 /// `settled` by more than 10.
