@@ -8,6 +8,7 @@
 #include <fstream>
 #include <span>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/file.h"
 #include "awmr/core/process.h"
 
@@ -98,7 +99,7 @@ Result<fs::path> build_firmware(const fs::path& directory, const std::vector<Emi
                    .environment = plain_environment(directory),
                    .time_limit_s = kTimeLimit_s};
   const auto flags = flags_for(kind.optimize);
-  call.arguments.insert(call.arguments.end(), flags.begin(), flags.end());
+  append(call.arguments, flags);
   call.arguments.push_back(kind.is_directed ? "-DAWMR_WITH_DIRECTION=1"
                                             : "-DAWMR_WITH_DIRECTION=0");
   call.arguments.push_back(kind.is_estimated ? "-DAWMR_WITH_POSITION_ESTIMATE=1"

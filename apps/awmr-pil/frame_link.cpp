@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "awmr/core/containers.h"
+
 #include "firmware/frame.h"
 #include "wire.h"
 
@@ -21,7 +23,7 @@ std::vector<std::uint8_t> framed(std::uint8_t type, std::uint8_t sequence,
                                  std::span<const std::uint8_t> payload) {
   std::vector<std::uint8_t> frame{::pil::kFrameStart, type, sequence,
                                   static_cast<std::uint8_t>(payload.size())};
-  frame.insert(frame.end(), payload.begin(), payload.end());
+  append(frame, payload);
   const std::uint16_t crc = crc16_of(frame.data() + 1, frame.size() - 1);
   frame.push_back(static_cast<std::uint8_t>(crc & 0xFFU));
   frame.push_back(static_cast<std::uint8_t>(crc >> 8U));

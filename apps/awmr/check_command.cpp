@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
 #include "awmr/identify/identify.h"
@@ -36,9 +37,7 @@ struct Check {
   std::vector<Fault> faults;         ///< unreadable files
 };
 
-void take(const Error& error, std::vector<Fault>& faults) {
-  faults.insert(faults.end(), error.faults.begin(), error.faults.end());
-}
+void take(const Error& error, std::vector<Fault>& faults) { append(faults, error.faults); }
 
 /// True if the value at `place` (a fault's place, `FILE:/json/pointer`) is null.
 bool is_null_at(const Json& document, const std::string& file, const std::string& place) {
@@ -209,7 +208,7 @@ void check_trials(const Vehicle& vehicle, TrialFiles files, bool all_recorded, C
     return finding.code == "table-contradiction" || finding.code == "log-contradiction";
   };
   const std::vector<Finding>& found = trials->findings;
-  check.notes.insert(check.notes.end(), found.begin(), found.end());
+  append(check.notes, found);
   if (as_is || std::none_of(found.begin(), found.end(), contradicts)) return;
   // If `as_is` is false, each contradiction is a fault, and its message has the column mapping that
   // corrects it.

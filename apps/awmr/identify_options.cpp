@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/nearest.h"
 
@@ -63,7 +64,7 @@ namespace {
 tl::unexpected<Error> unknown_request(std::string_view name,
                                       const std::vector<std::string>& names) {
   const std::vector<std::string> automatic = automatic_terms();
-  if (std::ranges::find(automatic, name) != automatic.end()) {
+  if (contains(automatic, name)) {
     return input_error(ErrorCode::kUnknownName, "--fit",
                        fmt::format("'{}' cannot be requested: a fit of logs estimates it by "
                                    "itself if the logs indicate it; leave it out",

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/file.h"
 #include "awmr/core/name_table.h"
 #include "awmr/core/option_text.h"
@@ -173,7 +174,7 @@ Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
   outcome.closing = fmt::format("wrote {}\n", record.string()) + outcome.closing;
   outcome.written.insert(outcome.written.begin(), record);
   const std::vector<Finding> damaged = followed.recording.findings(record.filename().string());
-  outcome.findings.insert(outcome.findings.end(), damaged.begin(), damaged.end());
+  append(outcome.findings, damaged);
   if (command.until_enough && !has_enough(last)) {
     outcome.refused = true;
     outcome.findings.push_back(

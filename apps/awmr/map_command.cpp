@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
 #include "awmr/core/text.h"
@@ -138,7 +139,7 @@ Result<Outcome> execute(const MapCommand& command) {
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files({command.file}));
   if (command.vehicle) {
     AWMR_ASSIGN_OR_RETURN(const std::vector<InputFile> more, input_files({*command.vehicle}));
-    inputs.insert(inputs.end(), more.begin(), more.end());
+    append(inputs, more);
   }
   NamedOptions options{{"trial", std::string(name_in(kTrialKindNames, command.trial))}};
   Outcome outcome{.summary = summary_of(command, guesses, sample),

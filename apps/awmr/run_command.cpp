@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/file.h"
 #include "awmr/core/option_text.h"
 #include "awmr/model/model_file.h"
@@ -36,7 +37,7 @@ struct Steps {
 };
 
 void add_written(Outcome& total, const std::vector<fs::path>& written) {
-  total.written.insert(total.written.end(), written.begin(), written.end());
+  append(total.written, written);
 }
 
 /// Adds the outcome of a step to the combined one. Of the step's text, the summary gets only the
@@ -86,7 +87,7 @@ std::vector<fs::path> inputs_of(const RunCommand& command, const Project& projec
 template <class T>
 void add_faults(const Result<T>& read, std::vector<Fault>& faults) {
   if (read) return;
-  faults.insert(faults.end(), read.error().faults.begin(), read.error().faults.end());
+  append(faults, read.error().faults);
 }
 
 Result<Trials> read_trials(const Project& project) {
@@ -137,7 +138,7 @@ Status report_step(const RunCommand& command, Outcome& total) {
   if (command.figures) report.figures = command.output / kFigures;
   AWMR_ASSIGN_OR_RETURN(const Outcome reported, execute(report));
   add_written(total, reported.written);
-  total.findings.insert(total.findings.end(), reported.findings.begin(), reported.findings.end());
+  append(total.findings, reported.findings);
   return {};
 }
 
@@ -149,7 +150,7 @@ void emit_library(const fs::path& model, const fs::path& gains, const fs::path& 
       "emit",
       execute(EmitCommand{.model = model, .gains = gains, .output = output, .as_is = as_is}));
   if (emitted) {
-    total.findings.insert(total.findings.end(), emitted->findings.begin(), emitted->findings.end());
+    append(total.findings, emitted->findings);
     return add_written(total, emitted->written);
   }
   total.findings.push_back(

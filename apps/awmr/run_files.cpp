@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
 #include "awmr/core/json_document.h"
@@ -81,7 +82,7 @@ Result<std::vector<fs::path>> write_runs(const Project& project, const InputName
             const std::vector<fs::path> files,
             write_run(model, gains, scenario, mode, gains.name == kTuned ? of_tuned : inputs, names,
                       directory / run_name(path, mode, gains.name)));
-        written.insert(written.end(), files.begin(), files.end());
+        append(written, files);
       }
     }
   }
@@ -121,7 +122,7 @@ Status check_own_results(const fs::path& directory) {
                                check_replaceable(directory, {{"awmr_params.h", ""}}),
                                check_replaceable(directory / kLibrary, library_outline())}) {
     if (status) continue;
-    faults.insert(faults.end(), status.error().faults.begin(), status.error().faults.end());
+    append(faults, status.error().faults);
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};

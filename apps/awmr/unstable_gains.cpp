@@ -7,6 +7,7 @@
 #include <string>
 #include <variant>
 
+#include "awmr/core/containers.h"
 #include "awmr/simulate/conditions.h"
 #include "awmr/tune/loop_stability.h"
 
@@ -48,7 +49,7 @@ void note_unstable(const Model& model, const ModeGains& gains,
   for (const Scenario& scenario : scenarios) {
     if (std::holds_alternative<OpenLoop>(scenario.guidance)) continue;
     const LoopConditions conditions = conditions_of(scenario);
-    if (std::ranges::find(examined, conditions) != examined.end()) continue;
+    if (contains(examined, conditions)) continue;
     examined.push_back(conditions);
     std::vector<Finding> unstable = unstable_findings(model, gains, gains_file, conditions, mode,
                                                       fmt::format(" (scenario {})", scenario.name));

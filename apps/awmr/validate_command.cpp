@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/file.h"
 #include "awmr/core/json_document.h"
 #include "awmr/model/gains_file.h"
@@ -58,7 +59,7 @@ auto evaluate_logs(const ValidateCommand& command, const Vehicle& vehicle, const
     AWMR_ASSIGN_OR_RETURN(const std::vector<DrivingLog> runs, read_logs(path, options, findings));
     std::vector<Evaluated> evaluated;
     for (const DrivingLog& log : runs) {
-      used.insert(used.end(), log.mapped.begin(), log.mapped.end());
+      append(used, log.mapped);
       AWMR_RETURN_IF_ERROR(check_consistency(log, path.string(), vehicle, options, findings));
       AWMR_ASSIGN_OR_RETURN(Evaluated one, evaluate(log));
       evaluated.push_back(std::move(one));
@@ -68,7 +69,7 @@ auto evaluate_logs(const ValidateCommand& command, const Vehicle& vehicle, const
   AWMR_ASSIGN_OR_RETURN(const auto by_file, read_each(command.logs, evaluate_runs));
   if (!command.other_columns) AWMR_RETURN_IF_ERROR(check_mappings(options, used, command.logs));
   std::vector<Evaluated> all;
-  for (const auto& runs : by_file) all.insert(all.end(), runs.begin(), runs.end());
+  for (const auto& runs : by_file) append(all, runs);
   return all;
 }
 

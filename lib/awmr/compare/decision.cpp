@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "awmr/compare/scoring.h"
+#include "awmr/core/containers.h"
 #include "awmr/core/parallel.h"
 #include "awmr/simulate/batch.h"
 
@@ -54,7 +55,7 @@ std::optional<NarrowLead> narrow_lead_of(const ScenarioRows& scenario,
   for (const RankedMode& other : ranking) {
     if (other.contender == first.front()) continue;
     const std::vector<std::string>& better = other.dominated_by;
-    if (std::ranges::find(better, first.front().label()) != better.end()) continue;
+    if (contains(better, first.front().label())) continue;
     const PairedDifference* gap =
         only_gap(statistics.differences, preferences, first.front(), other.contender);
     if (gap == nullptr || (lead && lead->metric != gap->metric)) continue;

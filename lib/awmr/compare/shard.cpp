@@ -11,6 +11,7 @@
 
 #include "awmr/compare/compare_findings.h"
 #include "awmr/compare/comparison_directory.h"
+#include "awmr/core/containers.h"
 #include "awmr/core/index.h"
 #include "awmr/core/shard_file.h"
 #include "awmr/model/findings_json.h"
@@ -200,7 +201,7 @@ Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directorie
   merged.findings = completion_findings(merged.comparison);
   std::ranges::move(extrapolation_findings(merged.comparison, merged.provenance),
                     std::back_inserter(merged.findings));
-  merged.findings.insert(merged.findings.end(), payload.findings.begin(), payload.findings.end());
+  append(merged.findings, payload.findings);
   return merged;
 }
 

@@ -8,6 +8,7 @@
 #include "awmr/compare/decision.h"
 #include "awmr/compare/scoring.h"
 #include "awmr/core/binomial.h"
+#include "awmr/core/containers.h"
 #include "awmr/core/text.h"
 
 namespace awmr {
@@ -106,7 +107,7 @@ std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided
   const RankedMode& best = ranking.front();
   if (ranking.size() == 1) return best.contender.label() + " is the only one compared";
   std::vector<std::string> first{best.contender.label()};
-  first.insert(first.end(), best.tied_with.begin(), best.tied_with.end());
+  append(first, best.tied_with);
   if (first.size() == 1) return first.front() + (is_undecided ? " is ahead here" : " is best");
   return fmt::format("{} are tied{}: {}", enumerated(first, std::identity(), " and "),
                      first.size() < ranking.size() ? " for best" : "",

@@ -17,6 +17,7 @@
 #include <mutex>
 #include <set>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/descriptor.h"
 
 namespace awmr {
@@ -82,7 +83,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 /// number.
 pid_t start(const ProgramCall& call, int output) {
   std::vector<std::string> arguments{call.program.string()};
-  arguments.insert(arguments.end(), call.arguments.begin(), call.arguments.end());
+  append(arguments, call.arguments);
   std::vector<std::string> environment = call.environment;
   const SpawnSettings settings(call.directory, output);
   const std::lock_guard lock(running_mutex);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/file.h"
 #include "awmr/core/hash.h"
 #include "awmr/core/json.h"
@@ -95,7 +96,7 @@ Status check_replaceable(const std::filesystem::path& directory,
     const std::filesystem::path path = directory / file.path;
     const auto exists = regular_file_exists(path);
     if (!exists) {
-      faults.insert(faults.end(), exists.error().faults.begin(), exists.error().faults.end());
+      append(faults, exists.error().faults);
       continue;
     }
     if (!*exists) continue;

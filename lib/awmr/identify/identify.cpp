@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/sample_quantile.h"
 #include "awmr/identify/admissible.h"
@@ -33,8 +34,7 @@ bool asks_for_other_family(const IdentifyOptions& options) {
 /// surge or turning table: steady runs determine only the sum of back-EMF and resistance.
 Status check_back_emf(const Vehicle& vehicle, const TrialData& data,
                       const IdentifyOptions& options) {
-  const bool is_requested =
-      std::ranges::find(options.requested, ParameterId::kBackEmf) != options.requested.end();
+  const bool is_requested = contains(options.requested, ParameterId::kBackEmf);
   if (!is_requested && !(vehicle.back_emf_s_per_m.value_or(0.0) > 0.0)) return {};
   if (!data.surge && !data.turning) return {};
   return input_error(
@@ -300,7 +300,7 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
   set_given(vehicle, model);
   check_inertia(vehicle, model.record.findings);
   const std::vector<Finding> implausible = plausibility_findings(vehicle, Severity::kWarning);
-  model.record.findings.insert(model.record.findings.end(), implausible.begin(), implausible.end());
+  append(model.record.findings, implausible);
 
   const SubjectFit surge = identify_laws(vehicle, data, options, values, reasons);
   identify_mass(vehicle, data, options, surge, values, reasons);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
 #include "awmr/core/option_text.h"
@@ -39,11 +40,11 @@ bool is_estimated_name(std::string_view name) {
          name == kCompassSinName || name == kCompassCosName || name == kCompassSin2Name ||
          name == kCompassCos2Name || name == kMotorLagName || name == kMassOverSurgeName ||
          name == kCoulombOverSurgeName || name == kQuadraticOverSurgeName ||
-         std::ranges::find(kExtraForceNames, name) != kExtraForceNames.end() ||
-         name.starts_with(kBiasPrefix) || name.starts_with(kSensorDelayPrefix) ||
-         name.starts_with(kSensorLagPrefix) || name.starts_with(kLagDampingPrefix) ||
-         name.starts_with(kSmoothingPrefix) || name.starts_with(kSensorScalePrefix) ||
-         name.starts_with(kSlipPrefix) || name.starts_with(kSlipRatioPrefix);
+         contains(kExtraForceNames, name) || name.starts_with(kBiasPrefix) ||
+         name.starts_with(kSensorDelayPrefix) || name.starts_with(kSensorLagPrefix) ||
+         name.starts_with(kLagDampingPrefix) || name.starts_with(kSmoothingPrefix) ||
+         name.starts_with(kSensorScalePrefix) || name.starts_with(kSlipPrefix) ||
+         name.starts_with(kSlipRatioPrefix);
 }
 
 int count(JsonObject& json, std::string_view key) {

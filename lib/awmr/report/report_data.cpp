@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/file.h"
 #include "awmr/core/hash.h"
 #include "awmr/model/finding_rank.h"
@@ -58,7 +59,7 @@ void add_findings_of(const Json& json, std::vector<Finding>& findings) {
   std::vector<Fault> faults;
   JsonObject object(json, "", "", faults);
   const std::vector<Finding> more = read_findings(object);
-  if (faults.empty()) findings.insert(findings.end(), more.begin(), more.end());
+  if (faults.empty()) append(findings, more);
 }
 
 /// Returns a finding if a run must be left out of the report: its side file is missing, has the
@@ -187,7 +188,7 @@ Result<ReportData> read_report_data(const std::filesystem::path& directory) {
     data.json["yaw_rate_measured_degps"] = *fastest_degps;
   }
   data.json["metric_words"] = metric_words_json();
-  findings.insert(findings.end(), data.left_out.begin(), data.left_out.end());
+  append(findings, data.left_out);
   data.json["findings"] = shown_findings(findings);
   return data;
 }

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "awmr/core/column_expression.h"
+#include "awmr/core/containers.h"
 #include "awmr/core/csv.h"
 #include "awmr/core/time_column.h"
 #include "awmr/core/units.h"
@@ -359,7 +360,7 @@ std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind,
     // Among coast-down files, only a table of speed bins (column from_mps) needs elapsed_s.
     if (kind == TrialKind::kCoastdown && column.name == "elapsed_s" && !has("from_mps")) continue;
     const std::vector<ColumnGuess> guesses = guesses_of(column.name, sample, kind, track_m);
-    all.insert(all.end(), guesses.begin(), guesses.end());
+    append(all, guesses);
   }
   if (kind == TrialKind::kLog) withdraw_constants(sample, all);
   for (auto begin = all.begin(); begin != all.end();) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/trials/log_consistency.h"
 #include "awmr/trials/steady.h"
 #include "awmr/trials/trial_columns.h"
@@ -20,7 +21,7 @@ namespace {
 template <class Read>
 std::optional<Read> keep(Result<Read> read, std::vector<Fault>& faults) {
   if (read) return std::move(*read);
-  faults.insert(faults.end(), read.error().faults.begin(), read.error().faults.end());
+  append(faults, read.error().faults);
   return std::nullopt;
 }
 
@@ -44,7 +45,7 @@ void join(std::optional<TrialSet<Row>>& all, TrialSet<Row> found) {
   if (!all) {
     all = std::move(found);
   } else {
-    all->rows.insert(all->rows.end(), found.rows.begin(), found.rows.end());
+    append(all->rows, found.rows);
   }
 }
 
@@ -65,7 +66,7 @@ void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
         logs.size() == 1 ? path.string() : path.string() + ":" + std::to_string(log.line.front());
     if (const auto sound = check_consistency(log, place, trials.vehicle, options, trials.findings);
         !sound) {
-      faults.insert(faults.end(), sound.error().faults.begin(), sound.error().faults.end());
+      append(faults, sound.error().faults);
     }
     trials.data.logs.push_back(std::move(log));
   }
@@ -73,9 +74,7 @@ void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
 
 std::vector<std::size_t> mappings_used(const TrialData& data) {
   std::vector<std::size_t> used;
-  const auto add = [&](const std::vector<std::size_t>& more) {
-    used.insert(used.end(), more.begin(), more.end());
-  };
+  const auto add = [&](const std::vector<std::size_t>& more) { append(used, more); };
   if (data.surge) add(data.surge->mapped);
   if (data.turning) add(data.turning->mapped);
   if (data.coastdown) add(data.coastdown->mapped);
@@ -89,8 +88,8 @@ std::vector<std::filesystem::path> paths_as_read(const TrialFiles& files) {
   std::vector<std::filesystem::path> paths;
   if (files.surge) paths.push_back(*files.surge);
   if (files.turning) paths.push_back(*files.turning);
-  paths.insert(paths.end(), files.coastdowns.begin(), files.coastdowns.end());
-  paths.insert(paths.end(), files.logs.begin(), files.logs.end());
+  append(paths, files.coastdowns);
+  append(paths, files.logs);
   return paths;
 }
 
@@ -108,7 +107,7 @@ void read_tables(const TrialFiles& files, const TrialOptions& options, Trials& t
   if (data.surge) {
     check_consistency(*data.surge, *files.surge, tables, options, findings, faults);
   }
-  findings.insert(findings.end(), of_turning.begin(), of_turning.end());
+  append(findings, of_turning);
   if (data.turning) {
     check_consistency(*data.turning, *files.turning, tables, options, findings, faults);
   }
@@ -146,9 +145,9 @@ Status check(const TrialFiles& files) {
 std::vector<std::filesystem::path> paths_of(const TrialFiles& files) {
   std::vector<std::filesystem::path> paths;
   if (files.surge) paths.push_back(*files.surge);
-  paths.insert(paths.end(), files.coastdowns.begin(), files.coastdowns.end());
+  append(paths, files.coastdowns);
   if (files.turning) paths.push_back(*files.turning);
-  paths.insert(paths.end(), files.logs.begin(), files.logs.end());
+  append(paths, files.logs);
   return paths;
 }
 
@@ -169,7 +168,7 @@ Result<Trials> load_trials(Vehicle vehicle, const TrialFiles& files) {
   const std::vector<std::filesystem::path> paths = paths_as_read(files);
   if (!faults.empty()) {
     const std::vector<Fault> unusable = unusable_mappings(options, paths);
-    faults.insert(faults.end(), unusable.begin(), unusable.end());
+    append(faults, unusable);
     return input_errors(std::move(faults));
   }
   AWMR_RETURN_IF_ERROR(check_mappings(options, mappings_used(data), paths));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "awmr/core/column_sources.h"
+#include "awmr/core/containers.h"
 #include "awmr/core/csv.h"
 #include "awmr/core/input_file.h"
 #include "awmr/core/raw_table.h"
@@ -36,7 +37,7 @@ Result<CsvTable> table_of_signals(CsvTopics topics, const std::string& file,
                                   std::span<const CsvColumn> columns,
                                   std::span<const ColumnMapping> mappings) {
   std::vector<std::string> header{std::string(kTimeName)};
-  header.insert(header.end(), topics.signals.header.begin(), topics.signals.header.end());
+  append(header, topics.signals.header);
   AWMR_ASSIGN_OR_RETURN(RawTable raw, join(std::move(topics.signals), file));
   raw.mapped = std::move(topics.mapped);
   return requested_columns(std::move(raw), header, columns, mappings);
@@ -62,7 +63,7 @@ Result<ColumnLog> columns_of_awl(std::string_view bytes, const std::string& file
 }
 
 /// Appends the signals of the next file of a split bag; topics with the same name become one topic.
-void append(Signals part, Signals& all) {
+void join(Signals part, Signals& all) {
   std::vector<std::size_t> places;
   for (const std::string& name : part.header) {
     const auto found = std::find(all.header.begin(), all.header.end(), name);
@@ -78,13 +79,13 @@ void append(Signals part, Signals& all) {
       all.topics.push_back(std::move(topic));
       continue;
     }
-    known->time_ns.insert(known->time_ns.end(), topic.time_ns.begin(), topic.time_ns.end());
+    append(known->time_ns, topic.time_ns);
     for (std::size_t c = 0; c < topic.values.size(); ++c) {
       known->values[c].insert(known->values[c].end(), topic.values[c].begin(),
                               topic.values[c].end());
     }
   }
-  all.notes.insert(all.notes.end(), part.notes.begin(), part.notes.end());
+  append(all.notes, part.notes);
 }
 
 Result<Signals> read_bags(std::span<const fs::path> paths, const Wanted& wanted) {
@@ -92,7 +93,7 @@ Result<Signals> read_bags(std::span<const fs::path> paths, const Wanted& wanted)
   for (const fs::path& path : paths) {
     AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));
     AWMR_ASSIGN_OR_RETURN(Signals part, read_rosbag(bytes, path.string(), wanted));
-    append(std::move(part), all);
+    join(std::move(part), all);
   }
   return all;
 }

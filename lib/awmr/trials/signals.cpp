@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/text.h"
 #include "awmr/core/time_column.h"
 
@@ -46,7 +47,7 @@ std::vector<std::int64_t> times_of(const std::vector<Topic>& topics) {
   std::vector<std::int64_t> times;
   for (const Topic& topic : topics) {
     if (!topic.columns.empty()) {
-      times.insert(times.end(), topic.time_ns.begin(), topic.time_ns.end());
+      append(times, topic.time_ns);
     }
   }
   std::sort(times.begin(), times.end());

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "force_units.h"
@@ -267,7 +268,7 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
   const bool angles_right = !is_steered || check_steering(table, turning.rows, tables.vehicle);
   if (!wrong && angles_right) table.report(wrong_turn(turning, tables.surge, tables.vehicle));
   std::vector<TurningRow> by_sides = is_by_sides || !is_steered ? turning.rows : turning.by_sides;
-  by_sides.insert(by_sides.end(), turning.standing.begin(), turning.standing.end());
+  append(by_sides, turning.standing);
   check_sides(table, by_sides, tables);
   if (is_steered) check_wheel_force(table, turning.rows, tables);
 }

@@ -12,6 +12,7 @@
 
 #include "awmr/core/column_expression.h"
 #include "awmr/core/column_sources.h"
+#include "awmr/core/containers.h"
 #include "awmr/core/csv_cell.h"
 #include "awmr/core/nearest.h"
 #include "awmr/core/text.h"
@@ -145,7 +146,7 @@ std::optional<std::string> unusable(const ColumnMapping& mapping,
     const std::vector<std::string> absent = missing_columns(mapping, header.names);
     if (absent.empty()) return std::nullopt;
     if (!missing) missing = absent.front();
-    names.insert(names.end(), header.names.begin(), header.names.end());
+    append(names, header.names);
   }
   if (headers.empty()) return std::nullopt;
   if (!missing) {

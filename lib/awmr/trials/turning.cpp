@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/csv.h"
 #include "awmr/core/units.h"
 #include "awmr/model/dynamics.h"
@@ -321,7 +322,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
     // Runs in which the vehicle did not turn serve only to determine tyre scrub, together with
     // steered turns, which this table lacks.
     set.standing.clear();
-    set_aside.insert(set_aside.end(), standing.begin(), standing.end());
+    append(set_aside, standing);
     std::sort(set_aside.begin(), set_aside.end());
   }
   take_sides_alone(set, findings);

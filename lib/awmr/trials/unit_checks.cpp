@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/trials/log_evidence.h"
@@ -258,7 +259,7 @@ std::vector<Contradiction> unit_contradictions(const Evidence& evidence) {
   }
   if (const auto steering = check_steering(evidence)) found.push_back(*steering);
   const std::vector<Contradiction> motion = motion_unit_contradictions(evidence);
-  found.insert(found.end(), motion.begin(), motion.end());
+  append(found, motion);
   return found;
 }
 

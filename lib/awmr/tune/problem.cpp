@@ -8,6 +8,7 @@
 #include <ranges>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/parallel.h"
 #include "awmr/tune/goals.h"
 #include "awmr/tune/option_table.h"
@@ -178,7 +179,7 @@ void Problem::add(const Problem& part) {
   if (better(part.nearest, nearest)) nearest = part.nearest;
   evaluations += part.evaluations;
   simulated += part.simulated;
-  met.insert(met.end(), part.met.begin(), part.met.end());
+  append(met, part.met);
   report();
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 
+#include "awmr/core/containers.h"
 #include "awmr/tune/feasible_gains.h"
 #include "awmr/tune/option_table.h"
 #include "awmr/tune/pole_placement.h"
@@ -63,7 +64,7 @@ const std::vector<Limit>& limits() {
 
 /// True if the constraint's bound depends on the limit.
 bool sets(const Limit& limit, std::string_view constraint) {
-  return std::ranges::find(limit.constraints, constraint) != limit.constraints.end();
+  return contains(limit.constraints, constraint);
 }
 
 /// Returns the limit on which a constraint's bound depends; null if there is none.

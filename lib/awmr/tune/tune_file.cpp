@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/json.h"
 #include "awmr/core/option_text.h"
 #include "awmr/model/gains_file.h"
@@ -84,7 +85,7 @@ void read_baseline(JsonObject& json, const std::filesystem::path& directory, Tun
       baseline_named(is_file ? directory / *name : std::filesystem::path(*name));
   if (!baseline) {
     const std::vector<Fault>& more = baseline.error().faults;
-    faults.insert(faults.end(), more.begin(), more.end());
+    append(faults, more);
     return;
   }
   config.options.baseline = *std::move(baseline);
@@ -125,7 +126,7 @@ void read_scenarios(JsonObject& json, const std::filesystem::path& directory, Tu
     Result<Scenario> scenario = read_scenario(path);
     if (!scenario) {
       const std::vector<Fault>& more = scenario.error().faults;
-      faults.insert(faults.end(), more.begin(), more.end());
+      append(faults, more);
       continue;
     }
     config.options.scenarios.push_back(std::move(*scenario));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "awmr/core/containers.h"
 #include "awmr/trials/channel_quality.h"
 
 namespace awmr {
@@ -93,7 +94,7 @@ CoastCurve thinned(const CoastCurve& curve, const std::vector<bool>& fresh, std:
 ChannelQuality repeats_of(const std::vector<CoastCurve>& curves) {
   std::vector<double> values;
   for (const CoastCurve& curve : curves) {
-    values.insert(values.end(), curve.speed_mps.begin(), curve.speed_mps.end());
+    append(values, curve.speed_mps);
   }
   return find_repeats(values);
 }

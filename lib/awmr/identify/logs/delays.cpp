@@ -121,6 +121,7 @@ class TermTrials {
   explicit TermTrials(const NoiseIteration& settled)
       : settled_(settled),
         terms_(candidate_terms(settled.problem, settled.point)),
+        start_(terms_.empty() ? settled : start_of_trials(settled)),
         lowest_(settled) {}
 
   /// Makes the trials, and returns the fit with the lowest AIC. If no term lowers AIC, returns the
@@ -129,7 +130,6 @@ class TermTrials {
   /// effect, because the drift of the noise model had absorbed this effect before.
   std::optional<NoiseIteration> likeliest() {
     if (terms_.empty()) return std::nullopt;
-    start_ = start_of_trials(settled_);
     for (const CandidateTerm& candidate : terms_) {
       const bool is_weak = candidate.significance < kComparable * terms_.front().significance;
       if (lowest_.best() && is_weak) break;
@@ -263,7 +263,7 @@ class TermTrials {
 
   const NoiseIteration& settled_;
   std::vector<CandidateTerm> terms_;  ///< most significant first
-  NoiseIteration start_{};            ///< start_of_trials()
+  NoiseIteration start_;              ///< start_of_trials()
   LowestAic lowest_;
   std::optional<NoiseIteration> strongest_;  ///< trial of the candidate that is_beyond_doubt()
   std::vector<std::string> partners_;  ///< terms that were tried together with another candidate

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/parallel.h"
@@ -250,7 +251,7 @@ std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOp
 std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<ParameterId>& requested) {
   std::vector<RecoverTruth> truths;
   for (const ParameterInfo& parameter : parameter_table()) {
-    const bool is_requested = std::ranges::find(requested, parameter.id) != requested.end();
+    const bool is_requested = contains(requested, parameter.id);
     const std::optional<double>& value = model[parameter.id].value;
     if (value && (requested.empty() || is_requested)) truths.push_back({parameter.id, *value});
   }
