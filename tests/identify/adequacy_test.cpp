@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <string>
 #include <vector>
 
@@ -24,6 +26,9 @@ ChannelNoise noise_with(double drift) {
 Adequacy adequacy_of(const NoiseLevels& noise) {
   static const std::vector<DrivingLog> logs{drive(kTruths[0], 1, {.duration_s = 2.0})};
   FamilyFit fit;
+  fit.fit.quantities = {free_parameter(ParameterId::kSteeringTimeConstant),
+                        free_parameter(ParameterId::kSwayAlpha)};
+  fit.fit.coordinates = {std::log(0.05), std::log(10.0)};
   fit.fit.noise = noise;
   fit.fit.usable = true;
   return check_adequacy(logs, {}, fit, false);

@@ -144,6 +144,14 @@ class TermTrials {
  private:
   NoiseIteration trial(const std::vector<FreeTerm>& terms) const { return tried(start_, terms); }
 
+  /// The likelier of two trials, one from the optimum of `settled`. The other start may lie in the
+  /// basin of a wrong optimum, because without the term other quantities have imitated it.
+  NoiseIteration trial_from_both(const std::vector<FreeTerm>& terms) const {
+    NoiseIteration one = tried(settled_, terms);
+    NoiseIteration other = trial(terms);
+    return akaike_of(one) < akaike_of(other) ? one : other;
+  }
+
   void consider(const CandidateTerm& candidate) {
     const FreeQuantity& more = candidate.quantity;
     const bool is_sensor = more.kind == Kind::kSensorDelay;
@@ -151,7 +159,8 @@ class TermTrials {
     if (is_tried || more.kind == Kind::kSmoothing) return;  // consider_smoothing()
     const std::vector<FreeTerm> added = with_companion(settled_.problem, candidate);
     if (added.size() == 2) partners_.push_back(added.back().quantity.name());
-    NoiseIteration fit = trial(added);
+    const bool is_first = &candidate == &terms_.front();
+    NoiseIteration fit = is_first ? trial_from_both(added) : trial(added);
     const bool may_be_wrong = more.is(ExtraForce::kTurnDrag) || more.is_ramp();
     if (may_be_wrong && has_wrong_term(fit, settled_)) return;
     const double found_s = fit.point.coordinates.back();
@@ -251,11 +260,10 @@ class TermTrials {
         smoothing.push_back({smoothing_of(term.quantity.channel, is_mean), term.value});
       }
       if (smoothing.empty()) return;
-      NoiseIteration all = trial(smoothing);
       const CandidateTerm& first = terms_.front();
-      if (!is_mean && first.quantity.kind == Kind::kSmoothing && is_beyond_doubt(first)) {
-        strongest_ = all;
-      }
+      const bool is_first = first.quantity.kind == Kind::kSmoothing;
+      NoiseIteration all = trial_from_both(smoothing);
+      if (!is_mean && is_first && is_beyond_doubt(first)) strongest_ = all;
       lowest_.consider(std::move(all));
       if (smoothing.size() > 1) lowest_.consider(trial({smoothing.front()}));
     }

@@ -131,8 +131,8 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                              apart, families_in_words(best.surge, best.yaw))};
 }
 
-/// If the limit of work or time is reached, notes it in `result`, with a finding. `before`: step that
-/// the search did not reach, in words. `fit`: the best fit so far.
+/// If the limit of work or time is reached, notes it in `result`, with a finding. `before`: step
+/// that the search did not reach, in words. `fit`: the best fit so far.
 void note_limit(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                 std::string_view before, const FamilyFit& fit, BestFamily& result) {
   if (!is_over(power_law)) return;

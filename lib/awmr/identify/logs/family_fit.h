@@ -43,8 +43,8 @@ double aic_under(const NoiseLevels& noise, const LogFit& fit, double most = kNoL
 /// absorbs the error of the fit's own model. If each fit used its own noise model, a fit with a
 /// smooth error of 0.2 m/s could be likelier than a fit with an error of 3 mm/s.
 ///
-/// `most`: as in aic_under(). With kMaxSquaredInnovation, each innovation counts as at most three standard
-/// deviations, so that a few rows do not decide.
+/// `most`: as in aic_under(). With kMaxSquaredInnovation, each innovation counts as at most three
+/// standard deviations, so that a few rows do not decide.
 double aic_lead(const LogFit& a, const LogFit& b, double most = kNoLimit);
 inline constexpr double kMaxSquaredInnovation = 9.0;
 

@@ -93,20 +93,25 @@ std::vector<DrivingLog> interpolated(const std::vector<DrivingLog>& logs) {
 
 bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          const FamilyFit& first) {
-  constexpr double kAlike = 10.0;  // largest accepted increase of AIC, for late commands in `first`
+  constexpr double kAlike = 10.0;  // largest accepted increase of AIC, if `first` reads early
   const auto is_smooth = [](const DrivingLog& log) {
     return !log.has_interpolated_commands && !log.has_held_set_points && changes_often(log);
   };
   if (!std::ranges::all_of(logs, is_smooth)) return false;
   LogFitOptions from = from_optimum(power_law, first);
-  const bool has_late_commands = std::ranges::any_of(from.terms, is_late_commands);
-  std::erase_if(from.terms, [](const FreeTerm& term) {
-    return term.quantity.kind == FreeQuantity::Kind::kDelay;
+  const auto is_slip = [](const FreeTerm& term) {
+    return term.quantity.kind == FreeQuantity::Kind::kWheelSlip;
+  };
+  const bool reads_early =
+      std::ranges::any_of(from.terms, is_late_commands) || std::ranges::any_of(from.terms, is_slip);
+  std::erase_if(from.terms, [&](const FreeTerm& term) {
+    return term.quantity.kind == FreeQuantity::Kind::kDelay || is_slip(term);
   });
   from.terms.push_back({free_term(FreeQuantity::Kind::kDelay), 0.0});
+  from.finds_delays = reads_early;  // the slip may have hidden other terms
   const FamilyFit lines = fit_family(interpolated(logs), from, first.surge, first.yaw);
   return lines.fit.usable &&
-         aic_lead(lines.fit, first.fit) > (has_late_commands ? -kAlike : kFamilyAicThreshold);
+         aic_lead(lines.fit, first.fit) > (reads_early ? -kAlike : kFamilyAicThreshold);
 }
 
 Finding interpolated_commands_finding(const std::string& file) {

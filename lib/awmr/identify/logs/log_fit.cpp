@@ -150,19 +150,22 @@ double change_reach_s(const std::vector<FitWindow>& windows) {
   return reach_s;
 }
 
-/// The noise of the channels, with ChannelNoise::longest_filter_s at the solution: the time constant
-/// of the motion at the largest measured speed or yaw rate, relaxation_time_s(), from 0.1 to 0.5 s.
-/// Model errors of a vehicle that reacts fast do not last longer. A channel whose filter is
-/// estimated keeps 0.5 s, because the filter correlates the noise.
+/// The noise of the channels, with ChannelNoise::longest_filter_s at the solution: the time
+/// constant of the motion at the largest measured speed or yaw rate, relaxation_time_s(), from 0.2
+/// to 0.5 s. Model errors of a vehicle that reacts fast do not last longer. A channel whose filter
+/// or smoothing is estimated keeps 0.5 s, because the filter correlates the noise.
 NoiseLevels with_drift_limits(const LogProblem& problem, const std::vector<double>& coordinates) {
-  constexpr double kShortest_s = 0.1;
+  constexpr double kShortest_s = 0.2;
   const LogModel& model = problem.model;
   const Plant<double> plant =
       plant_of(model.vehicle, parameters_at(model.held, model.quantities, coordinates));
   NoiseLevels levels = model.noise;
   const auto limit = [&](LogChannel channel, double time_constant_s) {
     const auto found = levels.find(channel);
-    if (found == levels.end() || has_kind(model.quantities, Kind::kSensorLag, channel)) return;
+    if (found == levels.end() || has_kind(model.quantities, Kind::kSensorLag, channel) ||
+        has_kind(model.quantities, Kind::kSmoothing, channel)) {
+      return;
+    }
     found->second.longest_filter_s =
         std::clamp(time_constant_s, kShortest_s, ChannelNoise{}.longest_filter_s);
   };

@@ -106,7 +106,8 @@ std::vector<Terms> other_explanations(const Terms& terms, const std::vector<Driv
   return others;
 }
 
-/// AIC of `b` minus AIC of `a`, by all rows or by most rows (kMaxSquaredInnovation), whichever is smaller.
+/// AIC of `b` minus AIC of `a`, by all rows or by most rows (kMaxSquaredInnovation), whichever is
+/// smaller.
 double lead_of(const LogFit& a, const LogFit& b) {
   return std::min(aic_lead(a, b), aic_lead(a, b, kMaxSquaredInnovation));
 }

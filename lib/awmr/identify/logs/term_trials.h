@@ -16,9 +16,9 @@ namespace awmr {
 /// constant that depends only on the logs. n: number of free quantities.
 double akaike_of(const NoiseIteration& fit);
 
-/// Adds the terms `more` to the estimated quantities of the fit `settled`, and makes a short fit (one
-/// round). The fit starts with white noise in place of drift, because drift could
-/// absorb the effect of the terms. Initial guesses are limited to three large changes
+/// Adds the terms `more` to the estimated quantities of the fit `settled`, and makes a short fit
+/// (one round). The fit starts with white noise in place of drift, because drift could absorb the
+/// effect of the terms. Initial guesses are limited to three large changes
 /// (FreeQuantity::large_change), except for quantities that only describe a form
 /// (FreeQuantity::is_form()).
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more);
