@@ -589,6 +589,10 @@ TEST(Log, ReportsAnotherMassOnTheSecondDayAndWidensTheInterval) {
   ASSERT_TRUE(mass.ci95);
   EXPECT_LT(mass.ci95->lo, kTruths[0].mass_norm);
   EXPECT_GT(mass.ci95->hi, heavy.mass_norm);
+  const Estimate& inertia = result->model[ParameterId::kInertiaNorm];
+  ASSERT_TRUE(inertia.ci95);
+  EXPECT_LT(inertia.ci95->lo, 0.16 * kTruths[0].mass_norm);
+  EXPECT_GT(inertia.ci95->hi, 0.16 * heavy.mass_norm);
 }
 
 TEST(Log, LogsOfOneVehicleAgree) {

@@ -57,6 +57,7 @@ ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& 
 struct Heterogeneity {
   double p_value = 1.0;
   double std_error = 0.0;    ///< standard error of the mean over logs, which may differ
+  double spread = 0.0;       ///< part of `std_error` that comes from the variance between logs
   double mean_square = 0.0;  ///< Q/(L - 1); about 1 if the logs agree
 };
 
@@ -77,7 +78,7 @@ Heterogeneity heterogeneity(const ByLog& by_log) {
   const double degrees = static_cast<double>(by_log.weights.size()) - 1.0;
   const double between = std::max(0.0, (q - degrees) / (sum - squares / sum));
   return {chi_squared_tail(q, degrees), std::sqrt((1.0 + between * squares / sum) / sum),
-          q / degrees};
+          std::sqrt(between * squares) / sum, q / degrees};
 }
 
 /// Raises the standard error of quantity `i` of the common fit to `std_error`, and sets the
@@ -116,6 +117,23 @@ LogFit fit_part(const LogPart& part, LogFitOptions options) {
   return fit_logs(part.log, options);
 }
 
+/// Widens the interval of I'z if the logs disagree on m' only, and the reverse
+/// (LogDisagreement::partner).
+void widen_partners(std::vector<LogDisagreement>& disagreements, LogFit& fit) {
+  const std::string mass(info(ParameterId::kMassNorm).name);
+  const std::string inertia(info(ParameterId::kInertiaNorm).name);
+  for (LogDisagreement& one : disagreements) {
+    if (one.name != mass && one.name != inertia) continue;
+    const std::string& partner = one.name == mass ? inertia : mass;
+    const bool has_own = std::ranges::any_of(
+        disagreements, [&](const LogDisagreement& other) { return other.name == partner; });
+    const auto i = place_in(fit, partner);
+    if (has_own || !i) continue;
+    widen(*i, std::hypot(fit.error_of(*i), one.spread), one.files.size(), fit);
+    one.partner = partner;
+  }
+}
+
 std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& files,
                                               const std::vector<LogFit>& fits, FamilyFit& common) {
   std::vector<LogDisagreement> disagreements;
@@ -128,7 +146,11 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
     const Heterogeneity between = heterogeneity(by_log);
     if (!(between.p_value < level)) continue;
     widen(i, between.std_error, by_log.files.size(), common.fit);
-    LogDisagreement one{q.name(), between.p_value, by_log.files, {}, false, false};
+    LogDisagreement one{.name = q.name(),
+                        .p_value = between.p_value,
+                        .files = by_log.files,
+                        .values = {},
+                        .spread = between.spread};
     for (const double x : by_log.coordinates) one.values.push_back(q.value(x));
     one.refuses = common.fit.error_of(i) > kUnknown * q.large_change;
     if (one.refuses) {
@@ -137,6 +159,7 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
     }
     disagreements.push_back(one);
   }
+  widen_partners(disagreements, common.fit);
   return disagreements;
 }
 
@@ -183,7 +206,11 @@ std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLo
   if (by_log.files.size() < 2) return {};
   const double p_value = heterogeneity(by_log).p_value;
   if (!(p_value < kLevel)) return {};
-  return {{term->name(), p_value, by_log.files, by_log.coordinates, true}};
+  return {{.name = term->name(),
+           .p_value = p_value,
+           .files = by_log.files,
+           .values = by_log.coordinates,
+           .withdraws = true}};
 }
 
 /// True if a disagreement of the logs on this term makes all intervals invalid. compare_logs()

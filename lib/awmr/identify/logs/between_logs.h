@@ -21,6 +21,11 @@ struct LogDisagreement {
   bool withdraws = false;      ///< true: all intervals of the common fit are invalid
   /// True: the quantity gets no value, because its widened interval is too wide.
   bool refuses = false;
+  /// Part of the widened standard error (of a logarithm for m' and I'z) that comes from the variance
+  /// between logs.
+  double spread = 0.0;
+  /// I'z if the logs disagree on m' only, and the reverse: its interval is widened by `spread` too.
+  std::optional<std::string> partner = {};
 };
 
 /// Result of compare_logs().
@@ -42,7 +47,9 @@ struct LogComparison {
 /// number of quantities (Bonferroni). The standard error of the common fit is then raised to at
 /// least that of the mean, which includes tau^2. The interval then covers the mean over such logs,
 /// not an individual log. A quantity gets no value if its raised standard error exceeds kUnknown
-/// (identifiability.h). Sensor biases are not compared, because they may differ between logs.
+/// (identifiability.h). Sensor biases are not compared, because they may differ between logs. A
+/// change of the load or of F_max (battery) changes both m' and I'z. If the logs disagree on one of
+/// them, tau^2 therefore also enters the interval of the other.
 ///
 /// The common fit may lack a delay or command error that differs between the logs, for example
 /// because someone changed the steering trim. A score test (score_test.h) therefore estimates each

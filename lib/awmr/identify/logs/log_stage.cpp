@@ -82,10 +82,17 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements,
     for (std::size_t l = 0; l < one.files.size(); ++l) {
       each += fmt::format("{}{:.4g} by {}", l == 0 ? "" : ", ", one.values[l], one.files[l]);
     }
+    const std::string partner =
+        one.partner && !withdrawn && !one.withdraws
+            ? fmt::format(
+                  ". The interval of {} is widened as well, because load and battery change "
+                  "both",
+                  *one.partner)
+            : "";
     findings.push_back(
         {one.files.front(), 0, Severity::kWarning, "logs-disagree",
          fmt::format("the logs disagree on {}: {} (p = {:.2g} if vehicle, surface and battery were "
-                     "the same). {}",
+                     "the same). {}{}",
                      one.name, each, one.p_value,
                      one.withdraws ? "The fit uses one value for all logs, so all intervals are "
                                      "withdrawn; identify each log separately"
@@ -94,7 +101,8 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements,
                            "value; identify each log separately"
                      : withdrawn ? "Its interval is withdrawn"
                                  : "Its interval is widened: it covers the mean over such logs, "
-                                   "not an individual log")});
+                                   "not an individual log",
+                     partner)});
   }
   return findings;
 }
