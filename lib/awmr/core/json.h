@@ -137,7 +137,7 @@ class JsonObject {
   }
   /// The values of this object, if its keys are arbitrary and its values are all objects.
   std::vector<JsonObject> values();
-  // As above, but each function reads every object by read_by(), and returns the values.
+  /// As above, but each function reads every object by read_by(), and returns the values.
   template <ObjectReader Read>
   auto objects(std::string_view key, const Read& read) {
     return read_all(objects(key), read);
