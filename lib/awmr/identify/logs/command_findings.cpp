@@ -355,9 +355,9 @@ std::string saturation_text(const FoundTerm& loss, const LogFit& fit) {
 std::string sag_text(const FoundTerm& loss, const LogFit& fit) {
   return fmt::format(
       "if both sides have the largest command of the logs, {:.3g}, the wheels push {:.1f} +- "
-      "{:.1f} "
-      "% less than in proportion to small commands, and the command of each side reduces the force "
-      "of the other: the voltage of the common battery drops. The fit compensates for this{}, but "
+      "{:.1f} % less than in proportion to small commands, and the command of each side reduces "
+      "the force of the other: the voltage of the common battery drops. The fit compensates for "
+      "this{}, but "
       "simulations and tuned gains assume proportional forces. Use a battery with less internal "
       "resistance, or divide the commands by the measured voltage",
       loss.quantity.full_command, 100.0 * loss.value, 100.0 * loss.error, without_intervals(fit));

@@ -36,53 +36,33 @@ struct Neighbour {
 
 /// A term that a round may add, and the quantity that the score test takes in its place: for a lag,
 /// which has no score test, the delay with nearly the same effect.
-struct TermTrial {
+struct TestedTerm {
   FreeTerm term;
   FreeQuantity tested;
 };
 
 /// A delay of the commands, a lag of the motors, filters of the channels `filtered`, and ramps of
 /// the forces. Leaves out terms that the fit estimates, and a lag that the vehicle file gives.
-std::vector<TermTrial> term_trials(const FamilyFit& fit, const std::vector<LogChannel>& filtered) {
+std::vector<TestedTerm> tested_terms(const FamilyFit& fit,
+                                     const std::vector<LogChannel>& filtered) {
   constexpr double kBegin_s = 0.05;
   constexpr double kBeginOfRamp_s = 0.3;
   const FreeQuantity delay = free_term(Kind::kDelay);
-  std::vector<TermTrial> trials{{{delay, kBegin_s}, delay}};
+  std::vector<TestedTerm> found{{{delay, kBegin_s}, delay}};
   if (!fit.options.vehicle.motor_time_constant_s) {
-    trials.push_back({{free_term(Kind::kMotorLag), kBegin_s}, delay});
+    found.push_back({{free_term(Kind::kMotorLag), kBegin_s}, delay});
   }
   for (const LogChannel channel : filtered) {
-    trials.push_back({{sensor_lag_of(channel), kBegin_s}, free_term(Kind::kSensorDelay, channel)});
+    found.push_back({{sensor_lag_of(channel), kBegin_s}, free_term(Kind::kSensorDelay, channel)});
   }
   for (const FreeQuantity& ramp :
        {force_rise(false), force_rise(true), free_term(Kind::kForceFall)}) {
-    trials.push_back({{ramp, kBeginOfRamp_s}, ramp});
+    found.push_back({{ramp, kBeginOfRamp_s}, ramp});
   }
-  std::erase_if(trials, [&](const TermTrial& trial) {
-    return has(fit.fit.quantities, trial.term.quantity.name());
+  std::erase_if(found, [&](const TestedTerm& one) {
+    return has(fit.fit.quantities, one.term.quantity.name());
   });
-  return trials;
-}
-
-/// The terms of term_trials() for which a score test predicts that they lower the sum of squared
-/// errors of the rough fit by at least 1 %.
-std::vector<FreeTerm> promising_terms(const std::vector<DrivingLog>& logs, const FamilyFit& rough,
-                                      const std::vector<LogChannel>& filtered) {
-  constexpr double kWorthATry = 0.01;
-  const std::vector<TermTrial> trials = term_trials(rough, filtered);
-  std::vector<FreeQuantity> tested;
-  for (const TermTrial& trial : trials) tested.push_back(trial.tested);
-  const LogProblem problem = rough_problem(log_problem(logs, rough.options));
-  const std::vector<ScoreTest> tests =
-      score_test(problem, {rough.fit.coordinates, rough.fit.initial_states}, tested);
-  const double squares = rough.fit.relative_error * problem.readings();
-  std::vector<FreeTerm> terms;
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    const bool is_in_range = trials[i].term.quantity.kind == Kind::kDelay || tests[i].value > 0.0;
-    const double decrease = std::pow(tests[i].value / tests[i].noise_error, 2);
-    if (is_in_range && decrease > kWorthATry * squares) terms.push_back(trials[i].term);
-  }
-  return terms;
+  return found;
 }
 
 /// Speed and yaw rate, if they are measured, unless no other channel is: the filter of an only
@@ -95,6 +75,27 @@ std::vector<LogChannel> filtered_channels(const std::vector<DrivingLog>& logs) {
     if (is_measured(channel)) channels.push_back(channel);
   }
   return channels;
+}
+
+/// The terms of tested_terms() for which a score test predicts that they lower the sum of squared
+/// errors of the rough fit by at least 1 %.
+std::vector<FreeTerm> promising_terms(const std::vector<DrivingLog>& logs, const FamilyFit& rough) {
+  constexpr double kWorthATry = 0.01;
+  const std::vector<TestedTerm> candidates = tested_terms(rough, filtered_channels(logs));
+  std::vector<FreeQuantity> tested;
+  for (const TestedTerm& one : candidates) tested.push_back(one.tested);
+  const LogProblem problem = rough_problem(log_problem(logs, rough.options));
+  const std::vector<ScoreTest> tests =
+      score_test(problem, {rough.fit.coordinates, rough.fit.initial_states}, tested);
+  const double squares = rough.fit.relative_error * problem.readings();
+  std::vector<FreeTerm> terms;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const bool is_in_range =
+        candidates[i].term.quantity.kind == Kind::kDelay || tests[i].value > 0.0;
+    const double decrease = std::pow(tests[i].value / tests[i].noise_error, 2);
+    if (is_in_range && decrease > kWorthATry * squares) terms.push_back(candidates[i].term);
+  }
+  return terms;
 }
 
 /// Returns the models to try next. Each changes the family of an open axis, or adds one of `terms`,
@@ -127,11 +128,9 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
   constexpr int kMostChanges = 8;
   const FamilyFit same = fit_roughly_from(logs, power_law, first, first.surge, first.yaw, {});
   FamilyFit best = same;
-  const std::vector<LogChannel> filtered = filtered_channels(logs);
   OpenAxes now = open;  // without the axis that was changed last
   for (int changes = 0; changes < kMostChanges && !is_over(power_law); ++changes) {
-    const std::vector<Neighbour> neighbours =
-        neighbours_of(best, now, promising_terms(logs, best, filtered));
+    const std::vector<Neighbour> neighbours = neighbours_of(best, now, promising_terms(logs, best));
     std::vector<FamilyFit> fits(neighbours.size());
     parallel_for(fits.size(), power_law.threads, [&](std::size_t i) {
       const auto& [families, more, has_back_emf] = neighbours[i];

@@ -13,6 +13,10 @@ namespace {
 
 using Kind = FreeQuantity::Kind;
 
+/// Coefficients of the deviation of a compass.
+constexpr Kind kCompassTerms[] = {Kind::kCompassSin, Kind::kCompassCos, Kind::kCompassSin2,
+                                  Kind::kCompassCos2};
+
 bool any_log(const LogProblem& problem, bool (*has)(const DrivingLog&)) {
   return std::ranges::any_of(problem.windows,
                              [&](const FitWindow& window) { return has(*window.rows.log); });
@@ -174,28 +178,14 @@ double begin_of(const FreeQuantity& quantity) {
 /// or another term in the fit.
 std::vector<FreeQuantity> all_terms() {
   std::vector<FreeQuantity> terms;
-  for (const Kind kind : {Kind::kDelay,
-                          Kind::kSteeringDelay,
-                          Kind::kMotorLag,
-                          Kind::kForceRise,
-                          Kind::kForceFall,
-                          Kind::kSteeringTrim,
-                          Kind::kSteeringDeadBand,
-                          Kind::kSteeringAsymmetry,
-                          Kind::kSteeringCurve,
-                          Kind::kForceImbalance,
-                          Kind::kForceExponent,
-                          Kind::kSwayOffset,
-                          Kind::kSwayAngle,
-                          Kind::kSpeedOffset,
-                          Kind::kPositionAhead,
-                          Kind::kPositionLeft,
-                          Kind::kCompassSin,
-                          Kind::kCompassCos,
-                          Kind::kCompassSin2,
-                          Kind::kCompassCos2}) {
+  for (const Kind kind :
+       {Kind::kDelay, Kind::kSteeringDelay, Kind::kMotorLag, Kind::kForceRise, Kind::kForceFall,
+        Kind::kSteeringTrim, Kind::kSteeringDeadBand, Kind::kSteeringAsymmetry,
+        Kind::kSteeringCurve, Kind::kForceImbalance, Kind::kForceExponent, Kind::kSwayOffset,
+        Kind::kSwayAngle, Kind::kSpeedOffset, Kind::kPositionAhead, Kind::kPositionLeft}) {
     terms.push_back(free_term(kind));
   }
+  for (const Kind kind : kCompassTerms) terms.push_back(free_term(kind));
   for (const ExtraForce force : {ExtraForce::kSlopeX, ExtraForce::kSlopeY, ExtraForce::kBrakeForce,
                                  ExtraForce::kReverseForce, ExtraForce::kBackwardDrag,
                                  ExtraForce::kSidePull, ExtraForce::kAxleOffset}) {
@@ -261,8 +251,7 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   for (const Kind kind : {Kind::kPositionAhead, Kind::kPositionLeft}) {
     add_term(problem, kind, measured.contains(LogChannel::kX) && has_turns(problem), found);
   }
-  for (const Kind kind :
-       {Kind::kCompassSin, Kind::kCompassCos, Kind::kCompassSin2, Kind::kCompassCos2}) {
+  for (const Kind kind : kCompassTerms) {
     add_term(problem, kind, measured.contains(LogChannel::kHeading), found);
   }
   return found;

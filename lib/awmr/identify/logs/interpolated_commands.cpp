@@ -99,12 +99,9 @@ bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOption
   };
   if (!std::ranges::all_of(logs, is_smooth)) return false;
   LogFitOptions from = from_optimum(power_law, first);
-  const auto is_slip = [](const FreeTerm& term) {
-    return term.quantity.kind == FreeQuantity::Kind::kWheelSlip;
-  };
   const bool reads_early =
       std::ranges::any_of(from.terms, is_late_commands) || std::ranges::any_of(from.terms, is_slip);
-  std::erase_if(from.terms, [&](const FreeTerm& term) {
+  std::erase_if(from.terms, [](const FreeTerm& term) {
     return term.quantity.kind == FreeQuantity::Kind::kDelay || is_slip(term);
   });
   from.terms.push_back({free_term(FreeQuantity::Kind::kDelay), 0.0});

@@ -16,10 +16,10 @@ namespace awmr {
 ///
 /// In all other cases, fits the resistance families of `first` to interpolated(logs), with a free
 /// delay of the commands, without wheel slip, and with a search for terms if `first` has slip or
-/// late commands. Returns true if the AIC of this fit is lower than
-/// that of `first` by more than kFamilyAicThreshold. If `first` has late commands (late time
-/// stamps) or wheel slip, the AIC of the new fit may even be up to 10 higher, because both have
-/// nearly the same effect as straight lines. `power_law`: options of `first`.
+/// late commands. Returns true if the AIC of this fit is lower than that of `first` by more than
+/// kFamilyAicThreshold. If `first` has late commands (late time stamps) or wheel slip, the AIC of
+/// the new fit may even be up to 10 higher, because both have nearly the same effect as straight
+/// lines. `power_law`: options of `first`.
 bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          const FamilyFit& first);
 

@@ -146,16 +146,21 @@ FreeQuantity servo_rate(double begin_radps) {
   return quantity;
 }
 
-FreeQuantity force_saturation(double full_command) {
-  FreeQuantity quantity = free_term(FreeQuantity::Kind::kForceSaturation);
+namespace {
+
+FreeQuantity at_full_command(FreeQuantity quantity, double full_command) {
   quantity.full_command = full_command;
   return quantity;
 }
 
+}  // namespace
+
+FreeQuantity force_saturation(double full_command) {
+  return at_full_command(free_term(FreeQuantity::Kind::kForceSaturation), full_command);
+}
+
 FreeQuantity supply_sag(double full_command) {
-  FreeQuantity quantity = free_term(FreeQuantity::Kind::kSupplySag);
-  quantity.full_command = full_command;
-  return quantity;
+  return at_full_command(free_term(FreeQuantity::Kind::kSupplySag), full_command);
 }
 
 FreeQuantity extra_force(ExtraForce force) {
@@ -174,6 +179,8 @@ FreeQuantity extra_force(ExtraForce force) {
 bool is_late_commands(const FreeTerm& term) {
   return term.quantity.kind == FreeQuantity::Kind::kDelay && term.begin < 0.0;
 }
+
+bool is_slip(const FreeTerm& term) { return term.quantity.kind == FreeQuantity::Kind::kWheelSlip; }
 
 FreeTerm stribeck_speed_term(ExtraForce force, double fastest) {
   const bool is_of_yaw = force == ExtraForce::kYawStribeck;

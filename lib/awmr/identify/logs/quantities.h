@@ -238,6 +238,9 @@ std::vector<FreeTerm> second_order_lag_of(LogChannel channel, double delay_s,
 /// True for a negative delay of the commands, which means that their time stamps are late.
 bool is_late_commands(const FreeTerm& term);
 
+/// True for slip of the wheels that measure a channel.
+bool is_slip(const FreeTerm& term);
+
 /// Speed scale w_s of the Stribeck friction `force`, with its initial guess. `fastest`: largest
 /// speed of the logs, m/s or rad/s.
 FreeTerm stribeck_speed_term(ExtraForce force, double fastest);

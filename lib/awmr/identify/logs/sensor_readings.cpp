@@ -140,11 +140,14 @@ double SensorReadings::add_antenna(LogChannel c, const LinearMotion& motion) {
 /// Deviation B sin psi + C cos psi + D sin 2 psi + E cos 2 psi of a compass
 /// (FreeQuantity::Kind::kCompassSin). Adds its derivatives to the row, the derivatives of psi.
 double SensorReadings::add_deviation(double heading_rad) {
+  const auto is_free = [&](const Deviation& part) {
+    return terms_.mounting[part.kind].has_value();
+  };
+  if (std::ranges::none_of(kDeviations, is_free)) return 0.0;
   double deviation = 0.0;
   double by_heading = 1.0;
   for (const Deviation& part : kDeviations) {
     const double value = terms_.mounting.value(part.kind);
-    if (value == 0.0) continue;
     deviation += value * std::sin(part.angle(heading_rad));
     by_heading += value * part.n * std::cos(part.angle(heading_rad));
   }

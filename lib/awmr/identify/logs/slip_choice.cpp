@@ -17,8 +17,6 @@ using Kind = FreeQuantity::Kind;
 
 using Terms = std::vector<FreeTerm>;
 
-bool is_slip(const FreeTerm& term) { return term.quantity.kind == Kind::kWheelSlip; }
-
 /// True if the fit has significant wheel slip or late commands (LogFit::is_significant()). With
 /// both, a reading changes earlier than the logged commands explain.
 bool reads_early(const LogFit& fit) {
