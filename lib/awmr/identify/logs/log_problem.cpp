@@ -8,6 +8,7 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/core/parallel.h"
+#include "awmr/trials/log_start.h"
 
 namespace awmr {
 
