@@ -10,6 +10,7 @@
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 #include "awmr/model/gains.h"
+#include "awmr/model/mode_gains.h"
 #include "awmr/model/model.h"
 
 namespace awmr {

@@ -16,7 +16,9 @@
 #include "awmr/trials/trial_columns.h"
 #include "constant_channels.h"
 #include "course_at_rest.h"
+#include "interpolated_readings.h"
 #include "log_channels.h"
+#include "original_rows.h"
 #include "read_table.h"
 #include "rounded_times.h"
 #include "trial_reader.h"
@@ -184,10 +186,10 @@ void check_time(TrialReader& reader, RowSpan run) {
   }
 }
 
-/// Adds x (east) and y (north), m, from latitude and longitude: the position in the local tangent
-/// plane at the first row of `rows`. Adds a fault for each latitude or longitude out of range.
-void add_geographic(TrialReader& reader, RowSpan rows, DrivingLog& log,
-                    std::vector<Finding>& findings) {
+/// Adds the columns x (east) and y (north), m, from latitude and longitude: the position in the
+/// local tangent plane at the first row of `rows`. Adds a fault for each latitude or longitude out
+/// of range.
+void add_geographic(TrialReader& reader, RowSpan rows, std::vector<ChannelColumn>& columns) {
   const std::vector<double> latitude = values_of(reader, rows, "latitude_deg", 1.0);
   const std::vector<double> longitude = values_of(reader, rows, "longitude_deg", 1.0);
   for (std::size_t i = 0; i < latitude.size(); ++i) {
@@ -209,9 +211,8 @@ void add_geographic(TrialReader& reader, RowSpan rows, DrivingLog& log,
     plane.Forward(latitude[i], longitude[i], 0.0, east[i], north[i], up);
   }
   const std::vector<std::size_t> present = rows_present(reader, rows, "latitude_deg");
-  log.is_geographic = true;
-  log[LogChannel::kX] = measured_of(LogChannel::kX, log, present, std::move(east), findings);
-  log[LogChannel::kY] = measured_of(LogChannel::kY, log, present, std::move(north), findings);
+  columns.push_back({LogChannel::kX, std::move(east), present});
+  columns.push_back({LogChannel::kY, std::move(north), present});
 }
 
 }  // namespace
@@ -329,31 +330,49 @@ std::vector<double> last_speeds(const TrialReader& reader, RowSpan rows) {
   return speeds;
 }
 
-DrivingLog log_of(TrialReader& reader, RowSpan rows, std::span<const LogChannel> unmeasured,
-                  std::vector<Finding>& findings) {
-  DrivingLog log = commands_of(reader, rows);
-  // The times of a joined log are unequal anyway, so their spacing does not show rounding.
-  if (!log.joined) replace_rounded_times(log.t_s, log.file, log.line.front(), findings);
-  if (reader.has("latitude_deg")) add_geographic(reader, rows, log, findings);
-  if (!reader.faults().empty()) return log;
+/// Returns the columns of the measured channels, without `unmeasured`. Adds faults as
+/// add_geographic().
+std::vector<ChannelColumn> columns_in(TrialReader& reader, RowSpan rows, DrivingLog& log,
+                                      std::span<const LogChannel> unmeasured,
+                                      std::vector<Finding>& findings) {
+  std::vector<ChannelColumn> columns;
+  log.is_geographic = reader.has("latitude_deg");
+  if (log.is_geographic) add_geographic(reader, rows, columns);
   const std::vector<double> speed_mps = last_speeds(reader, rows);
   for (const LogChannel channel : kChannels) {
     const ChannelInfo& about = info(channel);
     if (!reader.has(about.column) || std::ranges::count(unmeasured, channel) > 0) continue;
-    std::vector<double> values = values_of(reader, rows, about.column, about.to_si);
-    std::vector<std::size_t> present = rows_present(reader, rows, about.column);
+    ChannelColumn column{channel, values_of(reader, rows, about.column, 1.0),
+                         rows_present(reader, rows, about.column)};
+    column.rounding = printed_resolution(column.value) * about.to_si;
+    for (double& value : column.value) value *= about.to_si;
     if (channel == LogChannel::kHeading) {
       if (!speed_mps.empty()) {
-        set_aside_course_at_rest(log, speed_mps, values, present, findings);
+        set_aside_course_at_rest(log, speed_mps, column.value, column.present, findings);
       }
-      unwrap(values);
+      unwrap(column.value);
     }
-    log[channel] = measured_of(channel, log, present, std::move(values), findings);
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+DrivingLog log_of(TrialReader& reader, RowSpan rows, std::span<const LogChannel> unmeasured,
+                  std::vector<Finding>& findings) {
+  DrivingLog log = commands_of(reader, rows);
+  // The times of a joined log are unequal anyway, so their spacing does not show rounding.
+  const bool is_joined_file = log.joined;
+  if (!is_joined_file) replace_rounded_times(log.t_s, log.file, log.line.front(), findings);
+  std::vector<ChannelColumn> columns = columns_in(reader, rows, log, unmeasured, findings);
+  if (!reader.faults().empty()) return log;
+  recover_original_rows(log, columns, findings);
+  for (ChannelColumn& one : columns) {
+    log[one.channel] = measured_of(one.channel, log, one.present, std::move(one.value), findings);
   }
   join_position(log);
   note_held(log, findings);
   for (const char* column : {"force_left", "force_right", "steering_cmd_deg"}) {
-    if (reader.has(column)) {
+    if (is_joined_file && reader.has(column)) {
       note_stale_command(column, log, rows_present(reader, rows, column), findings);
     }
   }

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/sample_quantile.h"
 #include "awmr/trials/channel_quality.h"
 
@@ -69,14 +70,6 @@ std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
     activity[i] = turning ? apart + sum * angle : sum;
   }
   return activity;
-}
-
-std::vector<double> picked(const std::vector<double>& values,
-                           const std::vector<std::size_t>& rows) {
-  std::vector<double> some;
-  some.reserve(rows.size());
-  for (const std::size_t row : rows) some.push_back(values[row]);
-  return some;
 }
 
 /// Computes channel_quality() for a channel that has values only in `rows`. In the result for all

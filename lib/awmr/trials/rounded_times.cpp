@@ -11,6 +11,8 @@
 #include <span>
 #include <utility>
 
+#include "even_times.h"
+
 namespace awmr {
 namespace {
 
@@ -76,30 +78,20 @@ std::vector<double> numbers_with_missing_rows(const std::vector<std::int64_t>& s
 /// if rounding does not explain the deviations from the line: a deviation exceeds q, or their
 /// standard deviation exceeds q/sqrt(6). Rounding alone gives q/sqrt(12). At q/sqrt(6), the true
 /// spacing varies as much as the rounding, and the rounded times are as good as the line.
-std::optional<RoundedTimes> even_times(std::span<const double> t_s,
-                                       const std::vector<double>& numbers, double resolution_s) {
-  const auto n = static_cast<double>(t_s.size());
-  const double mean_number = std::accumulate(numbers.begin(), numbers.end(), 0.0) / n;
-  double mean_s = 0.0;
-  for (const double t : t_s) mean_s += (t - t_s.front()) / n;
-  double across = 0.0;
-  double along = 0.0;
-  for (std::size_t i = 0; i < t_s.size(); ++i) {
-    const double number = numbers[i] - mean_number;
-    across += number * (t_s[i] - t_s.front() - mean_s);
-    along += number * number;
-  }
-  RoundedTimes result{.resolution_s = resolution_s, .step_s = across / along, .even_s = {}};
+std::optional<RoundedTimes> even_within(std::span<const double> t_s,
+                                        const std::vector<double>& numbers, double resolution_s) {
+  const EvenTimes even = even_times(t_s, numbers);
+  RoundedTimes result{.resolution_s = resolution_s, .step_s = even.step_s, .even_s = {}};
   double squares = 0.0;
   double largest_s = 0.0;
   for (std::size_t i = 0; i < t_s.size(); ++i) {
-    result.even_s.push_back(t_s.front() + mean_s + result.step_s * (numbers[i] - mean_number));
+    result.even_s.push_back(even.at(numbers[i]));
     const double error_s = t_s[i] - result.even_s.back();
     squares += error_s * error_s;
     largest_s = std::max(largest_s, std::abs(error_s));
   }
-  const bool is_rounding =
-      largest_s <= resolution_s && squares / n <= resolution_s * resolution_s / 6.0;
+  const bool is_rounding = largest_s <= resolution_s && squares / static_cast<double>(t_s.size()) <=
+                                                            resolution_s * resolution_s / 6.0;
   return is_rounding ? std::optional(std::move(result)) : std::nullopt;
 }
 
@@ -120,10 +112,10 @@ std::optional<RoundedTimes> check_rounding(std::span<const double> t_s) {
   const double resolution_s = static_cast<double>(resolution) * kTick_s;
   std::vector<double> numbers(t_s.size());
   std::iota(numbers.begin(), numbers.end(), 0.0);
-  if (auto even = even_times(t_s, numbers, resolution_s)) return even;
+  if (auto even = even_within(t_s, numbers, resolution_s)) return even;
   if (resolution == usual) return std::nullopt;
   numbers = numbers_with_missing_rows(steps, resolution);
-  if (auto even = even_times(t_s, numbers, resolution_s)) return even;
+  if (auto even = even_within(t_s, numbers, resolution_s)) return even;
   if (coarseness < kCoarse || resolution < kCoarse_ticks) return std::nullopt;
   return RoundedTimes{.resolution_s = resolution_s, .step_s = 0.0, .even_s = {}};
 }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -134,13 +135,15 @@ std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFi
     }
   }
   if (names.empty()) return std::nullopt;
+  const double lead = lead_of(chosen.fit, closest->fit);
   return Finding{
       logs.front().file, 0, Severity::kWarning, "wheel-slip",
       fmt::format("these logs do not decide between two causes, {} and {}: the AIC of the fit with "
-                  "the first cause, which is used, is lower by only {:.1f}{}, so the intervals of "
-                  "{} are withdrawn. Log each command when it is sent, and measure the speed "
-                  "without driven wheels (optical flow, GNSS, a free wheel)",
-                  explanation(chosen), explanation(*closest), lead_of(chosen.fit, closest->fit),
+                  "the first cause, which is used, is {} {:.1f}{}, so the intervals of {} are "
+                  "withdrawn. Log each command when it is sent, and measure the speed without "
+                  "driven wheels (optical flow, GNSS, a free wheel)",
+                  explanation(chosen), explanation(*closest),
+                  lead < 0.0 ? "higher by" : "lower by only", std::abs(lead),
                   aic_lead(chosen.fit, closest->fit) < kPlainly ? "" : " without a few rows",
                   fmt::join(names, ", "))};
 }

@@ -1,0 +1,18 @@
+/// Times of evenly spaced rows or readings. Private to this folder.
+#pragma once
+
+#include <span>
+
+namespace awmr {
+
+/// The times t_n = t_0 + n h.
+struct EvenTimes {
+  double first_s = 0.0;  ///< t_0
+  double step_s = 0.0;   ///< h
+  double at(double number) const { return first_s + number * step_s; }
+};
+
+/// Least-squares fit of t_0 + n_k h to the times t_k. `numbers`: n_k, at least two different ones.
+EvenTimes even_times(std::span<const double> t_s, std::span<const double> numbers);
+
+}  // namespace awmr

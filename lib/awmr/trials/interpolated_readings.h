@@ -1,0 +1,46 @@
+/// Recovers the readings of columns that a program interpolated linearly between slower readings
+/// (np.interp, pandas, MATLAB interp1). Private to this folder.
+///
+/// Interpolated values lie on a chain of straight lines, and the readings are the corners of this
+/// chain. (Noise of the sensor does not hide the lines, because it was interpolated, too.) Row i is
+/// on a line if its distance from the chord through its neighbours,
+///
+///     e_i = x_i - (x_(i-1) (t_(i+1) - t_i) + x_(i+1) (t_i - t_(i-1)))/(t_(i+1) - t_(i-1))
+///
+/// is at most a tolerance: 2 % of the 75 % quantile of |e|, or the rounding of the file if this is
+/// larger. Between two lines of two or more rows, a corner is their intersection.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "line_chain.h"
+
+namespace awmr {
+
+/// Returns the readings of a column at the ascending times `t_s`, or nothing if it is not
+/// interpolated. Criteria for interpolation:
+///   - at least 10 % more rows are on lines than other rows near the tolerance let expect;
+///   - the other rows are typically off by at least three tolerances;
+///   - at least 80 % of the time spans between corners are about equal, 1.9 to 20 rows.
+/// `rounding`: printed_resolution() of the column, in the unit of `value`.
+std::optional<Readings> interpolated_readings(std::span<const double> t_s,
+                                              std::span<const double> value, double rounding);
+
+/// Returns the readings of a column at the times `readings_s`, at which another column had
+/// readings, or nothing if this column was not interpolated between these times.
+std::optional<Readings> interpolated_between(std::span<const double> readings_s,
+                                             std::span<const double> t_s,
+                                             std::span<const double> value, double rounding);
+
+/// Returns the values at the times `readings_s` of a command that changes only in the first row
+/// after such a time: a program held each value of the slower log until the next. Nothing for other
+/// commands, and for fewer than 10 changes.
+std::optional<Readings> changing_at(std::span<const double> readings_s, std::span<const double> t_s,
+                                    std::span<const double> value);
+
+/// Largest power of ten, 1 to 1e-9, of which all values are multiples: the last decimal place of
+/// the numbers in a file. 0 if there is none.
+double printed_resolution(std::span<const double> value);
+
+}  // namespace awmr
