@@ -61,16 +61,15 @@ Predicted predicted(const std::vector<WindowSums>& sums, const Eigen::VectorXd& 
 }
 
 struct UncertainTimes {
-  bool are_likelier = false;
+  /// Decrease of -2 ln L if the times of the changes are uncertain; 0 if no command changes.
+  double lead = 0.0;
   std::vector<double> standardised;  ///< WindowErrors::change_times
 };
 
-/// Tests whether uncertain times of the changes are likelier than changes at the rows. `more`: free
-/// quantities in addition to those of the problem.
+/// Compares uncertain times of the changes with changes at the rows. `more`: free quantities in
+/// addition to those of the problem.
 UncertainTimes uncertain_times(const LogProblem& problem, const SearchPoint& point,
                                const std::vector<FreeQuantity>& more) {
-  constexpr double kClearly = 20.0;
-  constexpr double kPerChange = 2.0;
   Extended with =
       extended(with_white_noise(problem), point, more, std::vector<double>(more.size(), 0.0));
   bool any = false;
@@ -96,8 +95,7 @@ UncertainTimes uncertain_times(const LogProblem& problem, const SearchPoint& poi
     window.change_times.resize(0, 0);
   }
   lead += predicted(sums, prior).squares;
-  const double threshold = kClearly + kPerChange * static_cast<double>(between.change_times.size());
-  return {lead > threshold, between.change_times};
+  return {lead, between.change_times};
 }
 
 /// Options of a fit with unknown times of the changes. The fit begins at the stopped fit `at_rows`,
@@ -134,14 +132,15 @@ bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& poin
   for (const auto kind : {FreeQuantity::Kind::kDelay, FreeQuantity::Kind::kSteeringDelay}) {
     if (!has(quantities, kind)) delays.push_back(free_term(kind));
   }
-  if (!uncertain_times(problem, point, delays).are_likelier) return false;
+  constexpr double kClearly = 20.0;
+  if (!(uncertain_times(problem, point, delays).lead > kClearly)) return false;
   std::vector<FreeQuantity> more = further_terms(problem);
   std::erase_if(more, [](const FreeQuantity& q) { return q.is_ramp(); });
   for (const ParameterId term : candidate_terms) {
     if (!place_of(quantities, term)) more.push_back(free_parameter(term));
   }
   const UncertainTimes times = uncertain_times(problem, point, more);
-  return times.are_likelier && are_times_between_rows(times.standardised);
+  return times.lead > 0.0 && are_times_between_rows(times.standardised);
 }
 
 bool are_times_between_rows(const std::vector<double>& times) {

@@ -10,13 +10,13 @@
 
 namespace awmr {
 
-/// True if the commands probably change between rows. Compares two assumptions: every change
+/// True if the commands possibly change between rows. Compares two assumptions: every change
 /// happened at an unknown time before its row (changes_before_rows()), or exactly at its row. With
-/// unknown times, -2 ln L (integrated over the times) has to be lower by more than 20, plus 2 for
-/// each change. The likeliest times also have to pass are_times_between_rows(). All quantities of
-/// the fit and all terms of further_terms() except ramps are free in both cases, so that a delay or
-/// lag does not look like such changes. `point`: solution of `problem`. `candidate_terms`: further
-/// free parameters (LogFitOptions::candidate_terms).
+/// unknown times, -2 ln L (integrated over the times) has to be lower by more than 20; with all
+/// terms of further_terms() except ramps free in both cases, it has to be lower at all. (A delay or
+/// lag can look like such changes.) The likeliest times also have to pass are_times_between_rows().
+/// `point`: solution of `problem`. `candidate_terms`: further free parameters
+/// (LogFitOptions::candidate_terms).
 bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& point,
                               const std::vector<ParameterId>& candidate_terms);
 

@@ -248,8 +248,8 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
 /// them from `others`. `winner`: the fit that was first selected on this axis. `best`: the best fit
 /// now, after the choice of the other axis and of the delays. A family is compared again for one of
 /// two reasons:
-///   - Its AIC is close to that of `winner`: it is higher by less than the AIC has decreased from
-///     `winner` to `best`.
+///   - The AIC has decreased from `winner` to `best`, and that of the family was higher than that of
+///     `winner` by less than this decrease, or is unknown, because its fit gave up early.
 ///   - Its fit had other delays, lags or command errors than `best`. With wrong terms, the AIC of
 ///     the true family can be too high by any amount.
 std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const FamilyFit& best,
@@ -260,7 +260,8 @@ std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const 
   std::erase_if(others, [&](const FamilyFit& other) {
     const bool is_of_axis = of_yaw ? other.yaw != best.yaw : other.surge != best.surge;
     if (!is_of_axis || !(other.fit.usable || other.fit.gave_up)) return false;
-    const bool is_close = other.fit.usable && aic_lead(winner, other.fit) < improved;
+    const bool is_close =
+        improved > 0.0 && (other.fit.gave_up || aic_lead(winner, other.fit) < improved);
     if (!is_close && names_of_terms(other.fit) == terms) return false;
     again.push_back(of_yaw ? Families{best.surge, other.yaw} : Families{other.surge, best.yaw});
     return true;
