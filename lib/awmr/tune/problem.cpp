@@ -71,6 +71,7 @@ Point SearchSpace::point_of(const Gains<double>& gains) const {
 
 bool better(const Candidate& a, const Candidate& b) {
   if (a.feasible() != b.feasible()) return a.feasible();
+  if (a.meets_constraints != b.meets_constraints) return a.meets_constraints;
   return a.feasible() ? a.objective < b.objective : a.violation < b.violation;
 }
 
@@ -110,6 +111,7 @@ Looked Problem::before_runs(const Point& point) const {
   looked.residuals = awmr::residuals(constraints_of(looked.candidate.gains, context_));
   for (std::size_t i = 0; i < looked.residuals.size(); ++i) looked.residuals[i] -= tolerated[i];
   looked.candidate.violation = *std::ranges::max_element(looked.residuals);
+  looked.candidate.meets_constraints = looked.candidate.violation <= 0.0;
   looked.residuals.resize(constraints(), 0.0);
   return looked;
 }

@@ -54,12 +54,15 @@ struct Candidate {
   /// True if the runs were simulated. False if a constraint is violated before any run.
   bool simulated = false;
   bool valid = false;  ///< true: the objective is finite, and no run breaks off
+  bool meets_constraints = false;  ///< true: meets the constraints that need no simulation
 
   bool feasible() const { return simulated && valid && violation <= 0.0; }
 };
 
 /// True if `a` is better than `b`. Feasible candidates are better than infeasible candidates. Two
-/// feasible candidates are compared by objective, two infeasible candidates by violation.
+/// feasible candidates are compared by objective. Infeasible candidates that meet the constraints
+/// (and only miss goals or activity limits) are better than those that do not; within each group,
+/// the smaller violation is better.
 bool better(const Candidate& a, const Candidate& b);
 
 /// A point with its evaluation.

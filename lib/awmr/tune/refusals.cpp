@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,6 +47,12 @@ std::string unsettled_text(const Objective& objective, const ConstraintContext& 
       changes.empty() ? no_change_settles("the runs") : describe(changes, "the runs"));
 }
 
+/// Factor of a limit, rounded up to three digits.
+double rounded_up(double factor) {
+  const double digit = std::pow(10.0, std::floor(std::log10(factor)) - 2.0);
+  return digit * std::ceil(factor / digit - 1e-9);
+}
+
 /// Error that names the goal which the gains nearest to the limits miss most. Empty if these gains
 /// meet all goals.
 std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, const Evaluation& e,
@@ -66,10 +73,10 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
       requested, fmt::format("/goals/{}", goals[worst].goal - objective.goals().data()),
       ErrorCode::kNoGains,
       fmt::format("no gains within the bounds reach the goal \"{}\": of {} evaluated sets, the "
-                  "nearest ({}) would need limits {:.3g} times as high.{} In tune.json, set `soft` "
+                  "nearest ({}) would need limits {:.4g} times as high.{} In tune.json, set `soft` "
                   "of this goal to true, raise its limits, or increase `local_evaluations`{}",
                   goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
-                  e.goal_quantile[worst], unsettled_text(objective, context, found.nearest.gains),
+                  rounded_up(e.goal_quantile[worst]), unsettled_text(objective, context, found.nearest.gains),
                   is_rate_limited
                       ? ". One default scenario is slow, because it limits the heading rate "
                         "to the highest measured yaw rate; " +

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -112,6 +113,7 @@ std::string pointer_to(const std::string& constraint) {
 std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context) {
   constexpr double kShares[] = {0.25, 0.5, 0.75, 1.0};
   constexpr double kFactors[] = {1.2, 2.0, 5.0, 20.0};
+  constexpr double kSharesOfServo[] = {0.1, 0.3, 0.9};
   constexpr double kBeyond[] = {1.4, 2.0};
   constexpr double kOfServo = 2.0;
   ConstraintContext given = context;
@@ -128,9 +130,14 @@ std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& c
     };
     if (sets(limit, kSteeringRate)) {
       const auto& rate = context.limits.steering_rate_rms_degps;
+      if (!rate || !context.steers()) continue;
+      const double most = kOfServo * context.servo_rate_degps;
       for (const double factor : kFactors) {
-        const bool is_possible = rate && factor * *rate <= kOfServo * context.servo_rate_degps;
-        if (is_possible && context.steers()) add(std::ceil(factor * *rate));
+        if (factor * *rate <= most) add(std::ceil(factor * *rate));
+      }
+      for (const double share : kSharesOfServo) {
+        const double number = std::ceil(share * context.servo_rate_degps);
+        if (number > kFactors[std::size(kFactors) - 1] * *rate) add(number);
       }
     } else {
       const double strict = limit.of(given);

@@ -28,6 +28,8 @@
 namespace awmr {
 namespace {
 
+bool is_of_damping(const SettlingChange& change) { return change.pointer.ends_with("damping"); }
+
 /// Returns why runs do not settle in one scenario and mode, and the changes with which they settle.
 /// To save time, it tries causes and changes of the gains only on the nominal vehicle and the first
 /// drawn vehicles. `is_varied`: the drawn vehicles have unmodelled variation. Errors of the
@@ -46,7 +48,16 @@ UnsettledRuns unsettled_in(const ObjectiveSetting& setting, const ConstraintCont
   unsettled.vehicles = few.vehicles.size();
   unsettled.friction = friction_effect(few, gains, mode);
   unsettled.noise = noise_effect(few, gains);
-  if (unsettled.noise) return unsettled;
+  if (unsettled.noise) {
+    // Gains that need more time can be slow because of the limits of the damping, not of noise.
+    if (unsettled.noise->time_factor == 1.0) return unsettled;
+    std::vector<SettlingChange> changes = search.changes(few, gains, kSettledShare);
+    if (std::ranges::any_of(changes, is_of_damping)) {
+      unsettled.noise.reset();
+      unsettled.changes = std::move(changes);
+    }
+    return unsettled;
+  }
   if (few.vehicles.size() > 1 && !is_varied) {
     unsettled.error = unsettling_error(few, gains);
     if (!unsettled.error) unsettled.noise = noise_effect_on_identified(few, gains);

@@ -68,7 +68,7 @@ std::string advice_for(const UnsettledRuns& found) {
                100.0 * noise->share_without,
                noise->time_factor > 1.0
                    ? fmt::format(
-                         " in {:g} times the duration (limits on noise make the gains slow)",
+                         " in {:g} times the duration (the limits make the gains slow)",
                          noise->time_factor)
                    : "",
                noise->is_of_identified ? "noise and errors of the model together move"
