@@ -197,7 +197,13 @@ TEST(InterpolatedReadings, AreNotFoundWhereNothingWasInterpolated) {
   const auto ramps = [](double t_s) {
     return std::abs(std::fmod(t_s, 3.0) - 1.1) + 0.4 * std::fmod(t_s, 1.7);
   };
+  // Response without noise to a command that changes every 0.12 s (6 rows).
+  const auto responses = [](double t_s) {
+    const double step = std::floor(t_s / 0.12 + 1e-9);
+    return 0.3 * std::fmod(step * 5.0, 7.0) * (1.0 - std::exp(-(t_s - 0.12 * step) / 0.05));
+  };
   const std::map<std::string, Value> signals{
+      {"responses", responses},
       {"noise", noisy(3)},
       {"no noise", motion},
       {"coarse", rounded(0.05)},
@@ -206,7 +212,7 @@ TEST(InterpolatedReadings, AreNotFoundWhereNothingWasInterpolated) {
       {"encoder", [](double t_s) { return std::round(20.0 * motion(t_s)) / 20.0; }},
       {"ramps", ramps}};
   for (const auto& [name, signal] : signals) {
-    const auto read = accepted(read_log, log_text(kRow_s, constant, signal, signal));
+    const auto read = accepted(read_log, log_text(kRow_s, constant, signal, signal, 15));
     EXPECT_THAT(codes_of(read.findings), Not(Contains("interpolated-readings@0"))) << name;
     EXPECT_NEAR(static_cast<double>(read.set.rows()), (kDuration_s - 0.5) / kRow_s, 1.0) << name;
   }

@@ -21,7 +21,8 @@ namespace awmr {
 /// Returns the readings of a column at the ascending times `t_s`, or nothing if it is not
 /// interpolated. Criteria for interpolation:
 ///   - at least 10 % more rows are on lines than other rows near the tolerance let expect;
-///   - the other rows are typically off by at least three tolerances;
+///   - rows on lines are typically off by at most the rounding or 1 % of the tolerance, other
+///     rows by at least three tolerances;
 ///   - at least 80 % of the time spans between corners are about equal, 1.9 to 20 rows.
 /// `rounding`: printed_resolution() of the column, in the unit of `value`.
 std::optional<Readings> interpolated_readings(std::span<const double> t_s,

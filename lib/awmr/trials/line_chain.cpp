@@ -51,8 +51,9 @@ void add_corners(const LinedColumn& column, std::size_t end, std::size_t begin, 
 
 LinedColumn lined_column(std::span<const double> t_s, std::span<const double> value,
                          double rounding) {
-  LinedColumn column{t_s, value, std::vector<double>(value.size(), 0.0),
-                     std::vector<bool>(value.size(), false), 0.0};
+  LinedColumn column{
+      t_s, value,   std::vector<double>(value.size(), 0.0), std::vector<bool>(value.size(), false),
+      0.0, rounding};
   for (std::size_t i = 1; i + 1 < value.size(); ++i) {
     const double before_s = t_s[i] - t_s[i - 1];
     const double after_s = t_s[i + 1] - t_s[i];
@@ -73,20 +74,23 @@ bool has_lines(const LinedColumn& column) {
   constexpr std::size_t kFewest = 30;
   const std::vector<double> deviations = column.deviations();
   if (deviations.size() < kFewest) return false;
+  std::vector<double> on_line;
   std::vector<double> others;
-  double on_line = 0.0;
   double near = 0.0;  // rows between one and three tolerances
   for (const double deviation : deviations) {
-    if (deviation <= column.tolerance) {
-      on_line += 1.0;
-    } else {
-      others.push_back(deviation);
-      if (deviation <= 3.0 * column.tolerance) near += 1.0;
-    }
+    (deviation <= column.tolerance ? on_line : others).push_back(deviation);
+    const bool is_near = deviation > column.tolerance && deviation <= 3.0 * column.tolerance;
+    if (is_near) near += 1.0;
   }
   const double by_chance = 3.0 * near / 2.0;
-  return on_line > 0.1 * static_cast<double>(deviations.size()) + by_chance && !others.empty() &&
-         median(std::move(others)) >= 3.0 * column.tolerance;
+  if (others.empty() || static_cast<double>(on_line.size()) <=
+                            0.1 * static_cast<double>(deviations.size()) + by_chance) {
+    return false;
+  }
+  // Interpolation leaves only rounding errors. The deviations of a smooth signal without noise have
+  // all sizes.
+  return median(std::move(others)) >= 3.0 * column.tolerance &&
+         median(std::move(on_line)) <= std::max(column.rounding, 0.01 * column.tolerance);
 }
 
 Readings corners_of(const LinedColumn& column) {

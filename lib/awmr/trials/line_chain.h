@@ -20,6 +20,7 @@ struct LinedColumn {
   std::vector<double> off_chord;  ///< |e_i| by row; 0 for the first and the last row
   std::vector<bool> is_flat;      ///< both neighbours have the same value
   double tolerance = 0.0;         ///< largest |e_i| of a row on a line
+  double rounding = 0.0;          ///< resolution of the values; 0 if unknown
 
   std::size_t rows() const { return value.size(); }
   bool is_on_line(std::size_t row) const { return off_chord[row] <= tolerance; }

@@ -76,7 +76,8 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
                   "nearest ({}) would need limits {:.4g} times as high.{} In tune.json, set `soft` "
                   "of this goal to true, raise its limits, or increase `local_evaluations`{}",
                   goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
-                  rounded_up(e.goal_quantile[worst]), unsettled_text(objective, context, found.nearest.gains),
+                  rounded_up(e.goal_quantile[worst]),
+                  unsettled_text(objective, context, found.nearest.gains),
                   is_rate_limited
                       ? ". One default scenario is slow, because it limits the heading rate "
                         "to the highest measured yaw rate; " +

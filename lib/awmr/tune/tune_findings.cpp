@@ -67,9 +67,8 @@ std::string advice_for(const UnsettledRuns& found) {
                noise->is_of_identified ? " and the identified values of all parameters" : "",
                100.0 * noise->share_without,
                noise->time_factor > 1.0
-                   ? fmt::format(
-                         " in {:g} times the duration (the limits make the gains slow)",
-                         noise->time_factor)
+                   ? fmt::format(" in {:g} times the duration (the limits make the gains slow)",
+                                 noise->time_factor)
                    : "",
                noise->is_of_identified ? "noise and errors of the model together move"
                                        : "the noise moves",

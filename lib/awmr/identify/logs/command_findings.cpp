@@ -56,17 +56,35 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
                                : "which is more likely a dead time than motor lag")};
 }
 
+/// True for a motor lag or a delay that is too short to be told from the unknown times at which
+/// commands change between rows (LogFit::change_reach_s).
+bool is_within_rows(const FoundTerm& term, const LogFit& fit) {
+  constexpr double kShare = 0.25;
+  switch (term.quantity.kind) {
+    case Kind::kMotorLag:
+      return term.value < fit.change_reach_s;
+    case Kind::kDelay:
+      return std::abs(term.value) < fit.change_reach_s + 2.0 * term.error;
+    case Kind::kSensorDelay:
+    case Kind::kSteeringDelay:
+      return std::abs(term.value) < kShare * fit.change_reach_s;
+    default:
+      return false;
+  }
+}
+
 /// Reports a motor lag, a dead time or late time stamps of the commands if the fit has found them.
 /// Otherwise, if at least two channels are measured and all of them have a latency, reports that
-/// actuators or commands are the likely common cause. A delay of the commands that changes between
-/// rows explain (LogFit::change_reach_s) is not reported: controllers change commands at regular
-/// times, so the mean time between two rows can differ from the middle.
+/// actuators or commands are the likely common cause. Times that changes between rows explain are
+/// not reported (is_within_rows()): controllers change commands at regular times, so the mean time
+/// between two rows can differ from the middle.
 std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWhy =
       "actuator lag, command latency or a slew-rate limit. m', I'z and the sway resistance may be "
       "biased; log the commands that reach the motors, or record slower steps";
   std::vector<Finding> findings;
   for (const FoundTerm& lag : found_terms(fit, Kind::kMotorLag)) {
+    if (is_within_rows(lag, fit)) continue;
     findings.push_back(
         {file, 0, Severity::kWarning, "actuator-lag",
          fmt::format("the motors have a lag with a time constant of {:.3f} +- {:.3f} s; the fit "
@@ -75,11 +93,12 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
   }
   const bool with_lag = has(fit.quantities, Kind::kMotorLag);
   for (const FoundTerm& input : found_terms(fit, Kind::kDelay)) {
-    if (std::abs(input.value) < fit.change_reach_s + 2.0 * input.error) continue;
+    if (is_within_rows(input, fit)) continue;
     findings.push_back(dead_time_finding(input, with_lag, file));
   }
   if (!findings.empty()) return findings;
-  const std::vector<FoundTerm> latency = found_terms(fit, Kind::kSensorDelay);
+  std::vector<FoundTerm> latency = found_terms(fit, Kind::kSensorDelay);
+  std::erase_if(latency, [&](const FoundTerm& one) { return is_within_rows(one, fit); });
   std::set<LogChannel> channels;
   for (const auto& [channel, noise] : fit.noise) {
     channels.insert(channel == LogChannel::kY ? LogChannel::kX : channel);
@@ -176,16 +195,28 @@ std::string sensor_scale_text(const FoundTerm& scale, const LogFit&) {
       1.0 + scale.value);
 }
 
-std::string slip_text(const FoundTerm& slip, const LogFit&) {
+/// Largest slip ratio at the largest force that is plausible if only the slipping wheels show it.
+constexpr double kLargestSlip = 0.25;
+
+/// True if the slip is larger than kLargestSlip, and no position shows that the wheels slip.
+bool is_implausible(const FoundTerm& slip, const LogFit& fit) {
+  return slip.quantity.is_ratio && slip.value > kLargestSlip && !fit.noise.contains(LogChannel::kX);
+}
+
+std::string slip_text(const FoundTerm& slip, const LogFit& fit) {
   return fmt::format(
       "the wheels that measure {} slip: at the largest force a wheel rolls faster than it "
       "moves over ground by {}, at smaller forces in proportion less. The fit compensates "
       "for this; measure without driven wheels (optical flow, GNSS, a gyroscope, a free "
-      "wheel)",
+      "wheel){}",
       info(slip.quantity.channel).name,
       slip.quantity.is_ratio
           ? fmt::format("{:.1f} +- {:.1f} %", 100.0 * slip.value, 100.0 * slip.error)
-          : fmt::format("{:.3f} +- {:.3f} m/s", slip.value, slip.error));
+          : fmt::format("{:.3f} +- {:.3f} m/s", slip.value, slip.error),
+      is_implausible(slip, fit)
+          ? ". No position confirms so much slip, so the intervals are withdrawn: a sensor that is "
+            "slower at low speed (speed from the time between two encoder ticks) looks the same"
+          : "");
 }
 
 std::string sway_offset_text(const FoundTerm& one, const LogFit&) {
@@ -411,6 +442,11 @@ bool has_implausible_imbalance(const LogFit& fit) {
   });
 }
 
+bool has_implausible_slip(const LogFit& fit) {
+  return std::ranges::any_of(found_terms(fit, Kind::kWheelSlip),
+                             [&](const FoundTerm& slip) { return is_implausible(slip, fit); });
+}
+
 bool saturates_much(const LogFit& fit) {
   return fit.value_of(Kind::kForceSaturation).value_or(0.0) > kLinear ||
          fit.value_of(Kind::kSupplySag).value_or(0.0) > kLinear ||
@@ -422,6 +458,7 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
   std::vector<Finding> findings;
   for (const TermFinding& one : kTermFindings) {
     for (const FoundTerm& term : found_terms(fit, one.kind)) {
+      if (is_within_rows(term, fit)) continue;
       const bool is_convex = one.kind == Kind::kForceExponent && term.value > 0.0;  // p > 1
       findings.push_back(
           {file, 0, Severity::kWarning, is_convex ? "force-curve" : one.code, one.text(term, fit)});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "awmr/core/containers.h"
@@ -27,6 +28,24 @@
 
 namespace awmr {
 namespace {
+
+/// Withdraws the interval of the servo's time constant if it is shorter than the row spacing within
+/// which commands change at unknown times. The fit is linear in these times, but the response of
+/// such a fast servo is not.
+std::optional<Finding> withdraw_fast_servo(LogFit& fit, const std::string& file) {
+  const double spacing_s = 2.0 * fit.change_reach_s;
+  const auto servo = place_of(fit.quantities, ParameterId::kSteeringTimeConstant);
+  if (!servo || !fit.report.parameters[*servo].std_error) return std::nullopt;
+  const double servo_s = fit.report.parameters[*servo].value;
+  if (!(servo_s < spacing_s)) return std::nullopt;
+  withdraw_intervals(fit.report, info(ParameterId::kSteeringTimeConstant).name);
+  return Finding{file, 0, Severity::kWarning, "changes-between-rows",
+                 fmt::format("the servo's time constant of {:.2g} s gets no interval, because it "
+                             "is shorter than the {:.2g} s between rows, within which the commands "
+                             "change at unknown times. Log every command when it is sent, or log "
+                             "at a higher rate",
+                             servo_s, spacing_s)};
+}
 
 /// Selects the model of the logs: resistance families of surge and yaw, and back-EMF if it is
 /// significant. Decides between wheel slip and late commands (decide_slip()), and whether the
@@ -60,6 +79,9 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   }
   if (adequacy.withdraws_servo) {
     withdraw_intervals(chosen.fit.report, info(ParameterId::kSteeringTimeConstant).name);
+  }
+  if (const auto unresolved = withdraw_fast_servo(chosen.fit, logs.front().file)) {
+    stage.findings.push_back(*unresolved);
   }
   return chosen;
 }
@@ -307,7 +329,10 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
     stage.withdraws_intervals = true;
     stage.findings.push_back(impossible_servo_finding(logs.front().file));
   }
-  if (chosen.fit.usable && has_implausible_imbalance(chosen.fit)) stage.withdraws_intervals = true;
+  if (chosen.fit.usable &&
+      (has_implausible_imbalance(chosen.fit) || has_implausible_slip(chosen.fit))) {
+    stage.withdraws_intervals = true;
+  }
   show_step(options, "comparing the logs with each other");
   const bool has_changed = report_change(logs, power_law, chosen, stage);
   if (!has_changed) compare_parts(logs, chosen, stage);

@@ -56,6 +56,11 @@ bool saturates_much(const LogFit& fit);
 /// half of the track width, r: yaw rate).
 bool has_implausible_imbalance(const LogFit& fit);
 
+/// True if the wheels that measure the speed or the yaw rate slip by more than a quarter at the
+/// largest force, and no position confirms it. Such values come from sensors that react late at low
+/// speed, rather than from slip.
+bool has_implausible_slip(const LogFit& fit);
+
 /// Withdraws the intervals of a resistance whose Stribeck friction is above 5 % of its Coulomb
 /// friction. All terms of this resistance depend on how the friction decreases with speed, and the
 /// logs do not show the true form of this decrease. (m' and I'z depend on it much less.)
