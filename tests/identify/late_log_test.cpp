@@ -691,6 +691,43 @@ TEST(LateLog, EstimatesTheTimesOfCommandsThatChangeBetweenRows) {
   }
 }
 
+/// A controller at 100 Hz and a log at 50 Hz: half of the commands change at a row, the others in
+/// the middle between two rows.
+TEST(LateLog, FindsThatHalfOfTheCommandsChangeBetweenRows) {
+  const Truth& t = kTruths[1];
+  Plant<double> slow_servo = plant(t);
+  slow_servo.steering_time_constant_s = 0.15;
+  DrivingLog fast = smooth_commands(0.01, 60.0);
+  hold_commands(fast, 131);
+  TrialData data;
+  data.logs = {measured_rows(fast, slow_servo, 2)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "changes-between-rows"));
+  EXPECT_FALSE(has_finding(*result, "late-commands"));
+  expect_recovered(*result, ParameterId::kYawAlpha, t.a3, 3.0);
+  expect_recovered(*result, ParameterId::kYawBeta, t.b3, 3.0);
+  expect_recovered(*result, ParameterId::kSteeringTimeConstant, 0.15, 3.0);
+}
+
+/// Rows every 0.1 s: the servo's time constant is 0.06 s, so that the unknown times of the commands
+/// matter, and neither it nor a short delay can be told from them.
+TEST(LateLog, GivesNoIntervalToAServoThatIsFastForTheRows) {
+  Plant<double> vehicle = plant(kTruths[1]);
+  vehicle.steering_time_constant_s = 0.06;
+  DrivingLog fast = smooth_commands(0.01, 60.0);
+  hold_commands(fast, 113);
+  TrialData data;
+  data.logs = {measured_rows(fast, vehicle, 10)};
+  const auto result = identify(robot(), data, power_law(), {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "changes-between-rows"));
+  EXPECT_FALSE(result->model[ParameterId::kSteeringTimeConstant].std_error);
+  for (const char* code : {"sensor-delay", "actuator-lag"}) {
+    EXPECT_FALSE(has_finding(*result, code)) << code;
+  }
+}
+
 TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithAMotorLag) {
   constexpr double kLag_s = 0.1;
   constexpr std::size_t kRowsHeld = 163;

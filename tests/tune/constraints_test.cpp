@@ -15,6 +15,7 @@
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/simulate.h"
 #include "awmr/tune/pole_placement.h"
+#include "awmr/tune/relaxation.h"
 #include "awmr/tune/sampled_loop.h"
 #include "awmr/tune/steering_rate.h"
 #include "tune/paper_model.h"
@@ -115,6 +116,27 @@ TEST(Constraints, IgnoreAModeWithoutAuthority) {
   context.wheel_force = {0.0, 1.3268 / 4.0};
   EXPECT_NEAR(turning_authority_m(context.own(), context.speed_mps),
               0.35 * 1.3268 * std::tan(std::acos(-1.0) / 18.0), kRounding);
+}
+
+/// A limit that is far too strict is relaxed up to its default, 0.9 of the servo's rate.
+TEST(RelaxedLimits, OfTheSteeringRateReachTheDefault) {
+  ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
+  context.has_steering = true;
+  context.servo_rate_degps = 300.0;
+  for (const double strict : {0.1, 5.0, 100.0}) {
+    context.limits.steering_rate_rms_degps = strict;
+    double last = strict;
+    for (const std::vector<RelaxedLimit>& numbers : relaxed_limits(context)) {
+      for (const RelaxedLimit& limit : numbers) {
+        if (!limit.is_steering_rate) continue;
+        EXPECT_GT(limit.number, last);
+        EXPECT_EQ(*limit.context.limits.steering_rate_rms_degps, limit.number);
+        last = limit.number;
+      }
+    }
+    EXPECT_GE(last, strict < 15.0 ? 0.9 * 300.0 : 5.0 * strict) << strict;
+    EXPECT_LE(last, 2.0 * 300.0) << strict;
+  }
 }
 
 TEST(Constraints, OfOneModeAreThoseOfItsActuationAlone) {

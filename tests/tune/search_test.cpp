@@ -16,6 +16,7 @@
 #include "awmr/simulate/simulate.h"
 #include "awmr/tune/feasible_gains.h"
 #include "awmr/tune/pole_placement.h"
+#include "awmr/tune/problem.h"
 #include "awmr/tune/robust.h"
 #include "awmr/tune/settling.h"
 #include "awmr/tune/steering_rate.h"
@@ -1046,6 +1047,20 @@ TEST(Refusal, LimitsOfLateLoopsConflictWithANominalSearch) {
   TuneOptions options = short_options();
   options.limits.late_damping = 0.3;
   EXPECT_THAT(refusal_of(options), ::testing::HasSubstr("conflict"));
+}
+
+/// If no gains reach a goal, the nearest gains are those that meet the constraints, even if others
+/// violate a constraint by less than these miss the goal.
+TEST(Candidate, ThatMeetsTheConstraintsIsNearerThanOneThatDoesNot) {
+  const Candidate misses_goal{
+      .violation = 1.4, .simulated = true, .valid = true, .meets_constraints = true};
+  const Candidate misses_more{
+      .violation = 9.0, .simulated = true, .valid = true, .meets_constraints = true};
+  const Candidate violates{.violation = 0.01};
+  EXPECT_TRUE(better(misses_goal, violates));
+  EXPECT_TRUE(better(misses_more, violates));
+  EXPECT_FALSE(better(violates, misses_more));
+  EXPECT_TRUE(better(misses_goal, misses_more));
 }
 
 TEST(TradeOff, KeepsTheParetoFront) {

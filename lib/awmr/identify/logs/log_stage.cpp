@@ -29,22 +29,24 @@
 namespace awmr {
 namespace {
 
-/// Withdraws the interval of the servo's time constant if it is shorter than the row spacing within
-/// which commands change at unknown times. The fit is linear in these times, but the response of
-/// such a fast servo is not.
+/// Withdraws the interval of the servo's time constant if it is shorter than three quarters of the
+/// row spacing, within which commands change at unknown times. The fit is linear in these times,
+/// but the response of such a fast servo is not.
 std::optional<Finding> withdraw_fast_servo(LogFit& fit, const std::string& file) {
+  constexpr double kFast = 0.75;
   const double spacing_s = 2.0 * fit.change_reach_s;
   const auto servo = place_of(fit.quantities, ParameterId::kSteeringTimeConstant);
   if (!servo || !fit.report.parameters[*servo].std_error) return std::nullopt;
   const double servo_s = fit.report.parameters[*servo].value;
-  if (!(servo_s < spacing_s)) return std::nullopt;
+  if (!(servo_s < kFast * spacing_s)) return std::nullopt;
   withdraw_intervals(fit.report, info(ParameterId::kSteeringTimeConstant).name);
-  return Finding{file, 0, Severity::kWarning, "changes-between-rows",
-                 fmt::format("the servo's time constant of {:.2g} s gets no interval, because it "
-                             "is shorter than the {:.2g} s between rows, within which the commands "
-                             "change at unknown times. Log every command when it is sent, or log "
-                             "at a higher rate",
-                             servo_s, spacing_s)};
+  return Finding{
+      file, 0, Severity::kWarning, "changes-between-rows",
+      fmt::format("the servo's time constant of {:.2g} s gets no interval, because it "
+                  "is short compared with the {:.2g} s between rows, within which the "
+                  "commands change at unknown times. Log every command when it is sent, or log "
+                  "at a higher rate",
+                  servo_s, spacing_s)};
 }
 
 /// Selects the model of the logs: resistance families of surge and yaw, and back-EMF if it is
