@@ -95,6 +95,14 @@ Readings at_even_times(const LinedColumn& column, Readings corners) {
   return at_even;
 }
 
+/// True if readings at their usual time spans cover at least 80 % of the time of the column. If they
+/// do not, only a part of the rows is interpolated.
+bool cover(const Readings& readings, const LinedColumn& column) {
+  constexpr double kNearlyAll = 0.8;
+  const double covered_s = static_cast<double>(readings.t_s.size()) * median_step_of(readings.t_s);
+  return covered_s >= kNearlyAll * (column.t_s.back() - column.t_s.front());
+}
+
 }  // namespace
 
 std::optional<Readings> interpolated_readings(std::span<const double> t_s,
@@ -109,7 +117,8 @@ std::optional<Readings> interpolated_readings(std::span<const double> t_s,
     if (!has_lines(column)) continue;
     const Readings corners = corners_of(column);
     if (!are_evenly_spaced(column, corners)) continue;
-    return with_readings_on_lines(column, at_even_times(column, corners));
+    const Readings readings = with_readings_on_lines(column, at_even_times(column, corners));
+    if (cover(readings, column)) return readings;
   }
   return std::nullopt;
 }

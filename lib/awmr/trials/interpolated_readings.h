@@ -23,7 +23,8 @@ namespace awmr {
 ///   - at least 10 % more rows are on lines than other rows near the tolerance let expect;
 ///   - rows on lines are typically off by at most the rounding or 1 % of the tolerance, other
 ///     rows by at least three tolerances;
-///   - at least 80 % of the time spans between corners are about equal, 1.9 to 20 rows.
+///   - at least 80 % of the time spans between corners are about equal, 1.9 to 20 rows;
+///   - the readings cover at least 80 % of the time.
 /// `rounding`: printed_resolution() of the column, in the unit of `value`.
 std::optional<Readings> interpolated_readings(std::span<const double> t_s,
                                               std::span<const double> value, double rounding);

@@ -63,9 +63,12 @@ LinedColumn lined_column(std::span<const double> t_s, std::span<const double> va
   }
   constexpr double kSmall = 0.02;
   constexpr double kRounding = 1.01;  // e of three values that are each rounded by half a unit
+  constexpr double kArithmetic = 1e-12;
   const std::vector<double> deviations = column.deviations();
   if (!deviations.empty()) {
-    column.tolerance = std::max(kSmall * quantile(deviations, 0.75), kRounding * rounding);
+    const auto [least, most] = std::ranges::minmax(value);
+    column.tolerance = std::max({kSmall * quantile(deviations, 0.75), kRounding * rounding,
+                                 kArithmetic * std::max(std::abs(least), std::abs(most))});
   }
   return column;
 }

@@ -19,6 +19,7 @@ namespace {
 struct CommandColumn {
   const char* name;
   std::vector<double>* value;
+  double rounding;                        ///< printed_resolution() of the column, SI
   std::optional<Readings> readings = {};  ///< its values at the times of a channel's readings
   bool is_interpolated = false;           ///< false: held between these times
 };
@@ -48,14 +49,20 @@ Recovered recovered_of(DrivingLog& log, const std::vector<ChannelColumn>& column
   for (const ChannelColumn& column : columns) {
     recovered.channels.push_back(readings_of(log, column, recovered.channels));
   }
-  recovered.commands = {{"force_left", &log.force_left}, {"force_right", &log.force_right}};
+  recovered.commands = {{"force_left", &log.force_left, printed_resolution(log.force_left)},
+                        {"force_right", &log.force_right, printed_resolution(log.force_right)}};
   if (log.steering_command_rad) {
-    recovered.commands.push_back({"steering_cmd_deg", &*log.steering_command_rad});
+    const double to_si = info(LogChannel::kSteering).to_si;
+    std::vector<double> printed = *log.steering_command_rad;
+    for (double& angle : printed) angle /= to_si;
+    recovered.commands.push_back(
+        {"steering_cmd_deg", &*log.steering_command_rad, printed_resolution(printed) * to_si});
   }
   for (CommandColumn& command : recovered.commands) {
     for (const std::optional<Readings>& channel : recovered.channels) {
       if (!channel || command.readings) continue;
-      command.readings = interpolated_between(channel->t_s, log.t_s, *command.value, 0.0);
+      command.readings =
+          interpolated_between(channel->t_s, log.t_s, *command.value, command.rounding);
       command.is_interpolated = command.readings.has_value();
       if (!command.readings) {
         command.readings = changing_at(channel->t_s, log.t_s, *command.value);
