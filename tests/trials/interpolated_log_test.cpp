@@ -188,6 +188,62 @@ TEST(InterpolatedReadings, GiveTheTimesAtWhichHeldCommandsChanged) {
   }
 }
 
+/// Readings of a vehicle that rests for the first `rest_s` seconds; the first is at `first_s`.
+Signal readings_after_rest(double rate_hz, double first_s, double rest_s, unsigned seed) {
+  Signal signal = readings(rate_hz, 0.0, seed);
+  for (std::size_t i = 0; i < signal.t_s.size(); ++i) {
+    signal.t_s[i] += first_s;
+    if (signal.t_s[i] < rest_s) signal.value[i] = 0.0;
+  }
+  return signal;
+}
+
+/// The commands before the first reading and during a rest are those of the file.
+TEST(InterpolatedReadings, KeepTheCommandsOfARest) {
+  const auto force = [](double t_s) { return t_s < 9.71 ? 0.0 : 0.1; };
+  const Signal speed = readings_after_rest(20.0, 0.013, 10.0, 1);
+  const auto read = accepted(read_log, log_text(kRow_s, force, between(speed), noisy(2)));
+  const DrivingLog& log = read.set;
+  ASSERT_THAT(codes_of(read.findings), Contains("interpolated-readings@0"));
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    const double row_s = kRow_s * std::floor(log.t_s[i] / kRow_s + 1e-6);
+    EXPECT_EQ(log.force_left[i], force(row_s)) << log.t_s[i];
+    if (!log[LogChannel::kSpeed]->fresh[i]) continue;
+    const double after = (log.t_s[i] - 0.013) * 20.0;
+    EXPECT_NEAR(after, std::round(after), 0.01) << log.t_s[i];
+  }
+  EXPECT_NEAR(static_cast<double>(fresh_count(log, LogChannel::kSpeed)), 20.0 * 59.5, 10.0);
+}
+
+/// A jump of the clock while the vehicle rests is a gap, with no readings in it.
+TEST(InterpolatedReadings, DoNotFillAGapOfTheFile) {
+  Signal speed = readings(20.0);
+  for (std::size_t i = 0; i < speed.t_s.size(); ++i) {
+    if (speed.t_s[i] > 14.0 && speed.t_s[i] < 16.0) speed.value[i] = 0.0;
+  }
+  for (const double jump_s : {100.0, 1.7e9}) {
+    std::string text = "t_s,force_left,force_right,steering_cmd_deg,speed_mps\n";
+    for (double t = 0.0; t < 59.0; t += kRow_s) {
+      text += fmt::format("{:.6f},0.2,0.2,0,{:.5f}\n", t < 15.0 ? t : t + jump_s,
+                          speed.interpolated(t));
+    }
+    const auto read = accepted(read_log, text);
+    EXPECT_LT(read.set.rows(), 1250U) << jump_s;
+    for (const double t_s : read.set.t_s) {
+      EXPECT_TRUE(t_s <= 15.0 || t_s >= 15.0 + jump_s - kRow_s) << t_s;
+    }
+  }
+}
+
+TEST(InterpolatedReadings, OfTwoRatesKeepTheirRates) {
+  const auto read =
+      accepted(read_log, log_text(
+                             0.01, [](double) { return 0.2; }, between(readings(20.0, 0.0, 1)),
+                             between(readings(10.0, 0.0, 2))));
+  EXPECT_NEAR(static_cast<double>(fresh_count(read.set, LogChannel::kSpeed)), 1190.0, 20.0);
+  EXPECT_NEAR(static_cast<double>(fresh_count(read.set, LogChannel::kYawRate)), 595.0, 10.0);
+}
+
 TEST(InterpolatedReadings, AreNotFoundWhereNothingWasInterpolated) {
   const auto constant = [](double) { return 0.2; };
   const auto rounded = [](double unit) {
@@ -204,6 +260,7 @@ TEST(InterpolatedReadings, AreNotFoundWhereNothingWasInterpolated) {
   };
   const std::map<std::string, Value> signals{
       {"responses", responses},
+      {"responses, rounded", [&](double t_s) { return 1e-3 * std::round(1e3 * responses(t_s)); }},
       {"noise", noisy(3)},
       {"no noise", motion},
       {"coarse", rounded(0.05)},

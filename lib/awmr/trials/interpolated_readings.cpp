@@ -10,115 +10,140 @@
 namespace awmr {
 namespace {
 
-/// True if the rows between two corners are on the line between them.
-bool is_straight(const LinedColumn& column, const Readings& corners, std::size_t first) {
-  const double begin_s = corners.t_s[first];
-  const double end_s = corners.t_s[first + 1];
-  const double slope = (corners.value[first + 1] - corners.value[first]) / (end_s - begin_s);
-  auto row = static_cast<std::size_t>(
-      std::upper_bound(column.t_s.begin(), column.t_s.end(), begin_s) - column.t_s.begin());
-  for (; row < column.rows() && column.t_s[row] < end_s; ++row) {
-    const double line = corners.value[first] + slope * (column.t_s[row] - begin_s);
-    if (std::abs(column.value[row] - line) > 2.0 * column.tolerance) return false;
-  }
-  return true;
-}
-
 std::vector<double> every(std::size_t stride, std::span<const double> values) {
   std::vector<double> some;
   for (std::size_t i = 0; i < values.size(); i += stride) some.push_back(values[i]);
   return some;
 }
 
-/// Adds readings that are on the line between their neighbours and therefore no corners, at equal
-/// time spans: up to two in a row, or any number if the value does not change (at rest). A longer
-/// slanted line is a gap in the readings.
-Readings with_readings_on_lines(const LinedColumn& column, const Readings& corners) {
-  constexpr double kMostParts = 3.0;
-  const double usual_s = median_step_of(corners.t_s);
-  Readings all;
-  for (std::size_t i = 0; i < corners.t_s.size(); ++i) {
-    all.t_s.push_back(corners.t_s[i]);
-    all.value.push_back(corners.value[i]);
-    if (i + 1 == corners.t_s.size()) break;
-    const double gap_s = corners.t_s[i + 1] - corners.t_s[i];
-    const double rise = corners.value[i + 1] - corners.value[i];
-    const double parts = std::round(gap_s / usual_s);
-    const bool is_rest = std::abs(rise) <= column.tolerance;
-    if ((parts > kMostParts && !is_rest) || !is_straight(column, corners, i)) continue;
-    for (double part = 1.0; part < parts; part += 1.0) {
-      all.t_s.push_back(corners.t_s[i] + part / parts * gap_s);
-      all.value.push_back(corners.value[i] + part / parts * rise);
-    }
-  }
-  return all;
-}
-
-/// If the readings are evenly spaced, replaces the times of corners, which are uncertain where two
-/// lines have about the same slope, by t_0 + n_k h. Criterion: most corners are within 5 % of a row
-/// of these times. Corners that are more than half a row off, and a second corner with the same
-/// number, are dropped. The first and the last row are no corners.
-Readings at_even_times(const LinedColumn& column, Readings corners) {
+/// The times t_0 + n h of the corners if these are evenly spaced: most of them must be within 20 %
+/// of a row of these times. (The time of a corner is uncertain if two lines have about the same
+/// slope.)
+std::optional<EvenTimes> even_times_of(const LinedColumn& column, const Readings& corners) {
+  constexpr double kMaxOff = 0.2;
   const double row_s = median_step_of(column.t_s);
   const double usual_s = median_step_of(corners.t_s);
   std::vector<double> numbers{0.0};
   for (std::size_t k = 1; k < corners.t_s.size(); ++k) {
     numbers.push_back(numbers.back() + std::round((corners.t_s[k] - corners.t_s[k - 1]) / usual_s));
   }
+  const auto off_s = [&](const EvenTimes& even, std::size_t k) {
+    return std::abs(corners.t_s[k] - even.at(numbers[k]));
+  };
   // Fit all corners, then only those near the fit before.
   EvenTimes even = even_times(corners.t_s, numbers);
   for (const double most_off_s : {0.5 * row_s, 0.25 * row_s}) {
     std::vector<std::size_t> near;
     for (std::size_t k = 0; k < numbers.size(); ++k) {
-      if (std::abs(corners.t_s[k] - even.at(numbers[k])) <= most_off_s) near.push_back(k);
+      if (off_s(even, k) <= most_off_s) near.push_back(k);
     }
-    if (near.size() < numbers.size() / 2) return corners;
+    if (near.size() < numbers.size() / 2) return std::nullopt;
     even = even_times(picked(corners.t_s, near), picked(numbers, near));
   }
-  std::vector<double> off_s;
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    off_s.push_back(std::abs(corners.t_s[k] - even.at(numbers[k])));
-  }
-  constexpr double kEven = 0.05;
-  if (median(off_s) > kEven * row_s) return corners;
-  Readings at_even;
-  double last_number = -1.0;
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const double at_s = even.at(numbers[k]);
-    if (off_s[k] > 0.5 * row_s || numbers[k] == last_number) continue;
-    last_number = numbers[k];
-    at_even.t_s.push_back(at_s);
-    const double slack_s = 1e-3 * row_s;
-    at_even.value.push_back(
-        value_at(column, at_s, at_s - even.step_s - slack_s, at_s + even.step_s + slack_s));
-  }
-  return at_even;
+  std::vector<double> all_off_s;
+  for (std::size_t k = 0; k < numbers.size(); ++k) all_off_s.push_back(off_s(even, k));
+  if (!(even.step_s > 0.0) || median(std::move(all_off_s)) > kMaxOff * row_s) return std::nullopt;
+  return even;
 }
 
-/// True if readings at their usual time spans cover at least 80 % of the time of the column. If they
-/// do not, only a part of the rows is interpolated.
-bool cover(const Readings& readings, const LinedColumn& column) {
-  constexpr double kNearlyAll = 0.8;
-  const double covered_s = static_cast<double>(readings.t_s.size()) * median_step_of(readings.t_s);
-  return covered_s >= kNearlyAll * (column.t_s.back() - column.t_s.front());
+/// Readings at all even times that are between two rows. Row steps longer than h are gaps without
+/// readings, so there are at most as many readings as rows.
+Readings readings_at(const LinedColumn& column, const EvenTimes& even) {
+  const double slack_s = 1e-3 * median_step_of(column.t_s);
+  Readings readings;
+  for (std::size_t row = 1; row < column.rows(); ++row) {
+    const double begin_s = column.t_s[row - 1];
+    const double end_s = column.t_s[row];
+    const double at_s = even.at(std::ceil((begin_s - even.first_s) / even.step_s - 1e-9));
+    const bool is_gap = end_s - begin_s > even.step_s;
+    const bool is_new = readings.t_s.empty() || at_s - readings.t_s.back() > 0.5 * even.step_s;
+    if (is_gap || at_s > end_s || !is_new) continue;
+    readings.t_s.push_back(at_s);
+    readings.value.push_back(
+        value_at(column, at_s, at_s - even.step_s - slack_s, at_s + even.step_s + slack_s));
+  }
+  return readings;
+}
+
+/// Leaves out the readings on a slanted line that spans more than three time spans: the program has
+/// bridged a gap in the readings. (A line of constant value is a rest.)
+Readings without_bridged_gaps(const Readings& all, double tolerance) {
+  constexpr std::size_t kMaxSpans = 3;
+  const auto is_on_line = [&](std::size_t k) {
+    const double before_s = all.t_s[k] - all.t_s[k - 1];
+    const double after_s = all.t_s[k + 1] - all.t_s[k];
+    const double chord =
+        (all.value[k - 1] * after_s + all.value[k + 1] * before_s) / (before_s + after_s);
+    return std::abs(all.value[k] - chord) <= 2.0 * tolerance;
+  };
+  Readings kept;
+  const auto keep = [&](std::size_t k) {
+    kept.t_s.push_back(all.t_s[k]);
+    kept.value.push_back(all.value[k]);
+  };
+  for (std::size_t k = 0; k < all.t_s.size();) {
+    keep(k);
+    std::size_t end = k + 1;  // last reading of the line that begins with k
+    while (end + 1 < all.t_s.size() && is_on_line(end)) ++end;
+    if (end >= all.t_s.size()) break;
+    // The ends of the line, where two lines cross, are less exact than the readings between them.
+    const bool is_gap =
+        end - k > kMaxSpans && std::abs(all.value[end - 1] - all.value[k + 1]) > 2.0 * tolerance;
+    for (std::size_t i = k + 1; i < end && !is_gap; ++i) keep(i);
+    k = end;
+  }
+  return kept;
+}
+
+/// True if nearly all rows of a column are on the lines between the readings, and if readings at
+/// their usual time spans cover nearly all of its time, without gaps in the file. Otherwise, the
+/// column has lines for another reason, or only a part of it is interpolated.
+bool describe(const Readings& readings, const LinedColumn& column) {
+  constexpr double kNearlyAll = 0.95;
+  constexpr double kMinCovered = 0.8;
+  if (readings.t_s.size() < 2) return false;
+  const double usual_s = median_step_of(readings.t_s);
+  const double near = 2.0 * std::max(column.rounding, column.tolerance);
+  double rows = 0.0;
+  double on_line = 0.0;
+  double duration_s = 0.0;
+  std::size_t next = 1;
+  for (std::size_t row = 1; row < column.rows(); ++row) {
+    const double t_s = column.t_s[row];
+    if (t_s - column.t_s[row - 1] <= usual_s) duration_s += t_s - column.t_s[row - 1];
+    while (next + 1 < readings.t_s.size() && readings.t_s[next] < t_s) ++next;
+    if (t_s < readings.t_s[next - 1] || t_s > readings.t_s[next]) continue;
+    const double share =
+        (t_s - readings.t_s[next - 1]) / (readings.t_s[next] - readings.t_s[next - 1]);
+    const double line =
+        readings.value[next - 1] + share * (readings.value[next] - readings.value[next - 1]);
+    rows += 1.0;
+    if (std::abs(column.value[row] - line) <= near) on_line += 1.0;
+  }
+  const double covered_s = static_cast<double>(readings.t_s.size()) * usual_s;
+  return on_line >= kNearlyAll * rows && covered_s >= kMinCovered * duration_s;
 }
 
 }  // namespace
 
 std::optional<Readings> interpolated_readings(std::span<const double> t_s,
                                               std::span<const double> value, double rounding) {
-  constexpr std::size_t kFewestRows = 50;
+  constexpr std::size_t kMinRows = 50;
   // Rounding hides corners of short lines. In a column with fewer rows, the corners are sharper.
   for (const std::size_t stride : {1, 2, 4}) {
     const std::vector<double> some_s = every(stride, t_s);
     const std::vector<double> some = every(stride, value);
-    if (some.size() < kFewestRows) break;
+    if (some.size() < kMinRows) break;
     const LinedColumn column = lined_column(some_s, some, rounding);
     if (!has_lines(column)) continue;
     const Readings corners = corners_of(column);
     if (!are_evenly_spaced(column, corners)) continue;
-    const Readings readings = with_readings_on_lines(column, at_even_times(column, corners));
-    if (cover(readings, column)) return readings;
+    const LinedColumn all = lined_column(t_s, value, rounding);
+    if (const auto even = even_times_of(column, corners)) {
+      const Readings readings = without_bridged_gaps(readings_at(column, *even), column.tolerance);
+      if (describe(readings, all)) return readings;
+    }
+    if (describe(corners, all)) return corners;
   }
   return std::nullopt;
 }
@@ -127,27 +152,33 @@ std::optional<Readings> interpolated_between(std::span<const double> readings_s,
                                              std::span<const double> t_s,
                                              std::span<const double> value, double rounding) {
   constexpr double kNearlyAll = 0.9;
-  constexpr double kFewest = 5.0;
+  constexpr double kMinCorners = 0.7;  // of the readings
+  constexpr double kMinCount = 5.0;
+  if (t_s.size() < 3 || readings_s.empty()) return std::nullopt;
+  const double slack_s = 1e-3 * median_step_of(t_s);
   const LinedColumn column = lined_column(t_s, value, rounding);
   double inside = 0.0;  // rows whose neighbours are between the same two readings
   double on_line = 0.0;
+  double spanning = 0.0;  // other rows
   double corners = 0.0;
   std::size_t next = 0;  // first reading later than the row before
   for (std::size_t i = 1; i + 1 < column.rows(); ++i) {
-    const double slack_s = 1e-3 * (t_s[i] - t_s[i - 1]);
     while (next < readings_s.size() && readings_s[next] <= t_s[i - 1] + slack_s) ++next;
     if (column.is_flat[i]) continue;
     if (next < readings_s.size() && readings_s[next] < t_s[i + 1] - slack_s) {
+      spanning += 1.0;
       if (!column.is_on_line(i)) corners += 1.0;
       continue;
     }
     inside += 1.0;
     if (column.is_on_line(i)) on_line += 1.0;
   }
-  if (inside < kFewest || corners < kFewest || on_line < kNearlyAll * inside) return std::nullopt;
+  const bool is_slower = corners < kMinCorners * spanning;  // it has fewer readings
+  if (inside < kMinCount || corners < kMinCount || is_slower || on_line < kNearlyAll * inside) {
+    return std::nullopt;
+  }
   Readings readings;
   for (std::size_t k = 0; k < readings_s.size(); ++k) {
-    const double slack_s = 1e-3 * (t_s[1] - t_s[0]);
     const double previous_s = k > 0 ? readings_s[k - 1] - slack_s : t_s.front();
     const double next_s = k + 1 < readings_s.size() ? readings_s[k + 1] + slack_s : t_s.back();
     readings.t_s.push_back(readings_s[k]);
@@ -158,9 +189,11 @@ std::optional<Readings> interpolated_between(std::span<const double> readings_s,
 
 std::optional<Readings> changing_at(std::span<const double> readings_s, std::span<const double> t_s,
                                     std::span<const double> value) {
-  constexpr double kFewest = 10.0;
+  constexpr double kMinChanges = 10.0;
   constexpr double kNearlyAll = 0.97;
-  const double slack_s = 1e-3 * (t_s[1] - t_s[0]);
+  if (t_s.size() < 2 || readings_s.size() < 2) return std::nullopt;
+  const double slack_s = 1e-3 * median_step_of(t_s);
+  const double longest_s = 1.5 * median_step_of(readings_s);
   Readings readings;
   double changes = 0.0;
   double after_reading = 0.0;  // changes in the first row after a reading
@@ -172,10 +205,29 @@ std::optional<Readings> changing_at(std::span<const double> readings_s, std::spa
     }
     if (value[row] == value[row - 1]) continue;
     changes += 1.0;
-    if (next > before) after_reading += 1.0;
+    if (next > before) {
+      after_reading += 1.0;
+    } else if (next == readings_s.size() || readings_s[next] - t_s[row] > longest_s) {
+      return std::nullopt;  // a change in a gap of the readings
+    }
   }
-  if (changes < kFewest || after_reading < kNearlyAll * changes) return std::nullopt;
+  if (changes < kMinChanges || after_reading < kNearlyAll * changes) return std::nullopt;
   return readings;
+}
+
+double smallest_step(std::span<const double> value) {
+  constexpr double kArithmetic = 1e-12;
+  std::vector<double> sorted(value.begin(), value.end());
+  std::ranges::sort(sorted);
+  double largest = 0.0;
+  for (const double one : sorted) largest = std::max(largest, std::abs(one));
+  double smallest = 0.0;
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    const double step = sorted[i] - sorted[i - 1];
+    const bool is_step = step > kArithmetic * largest;
+    if (is_step && (smallest == 0.0 || step < smallest)) smallest = step;
+  }
+  return smallest;
 }
 
 double printed_resolution(std::span<const double> value) {

@@ -7,8 +7,9 @@
 ///
 ///     e_i = x_i - (x_(i-1) (t_(i+1) - t_i) + x_(i+1) (t_i - t_(i-1)))/(t_(i+1) - t_(i-1))
 ///
-/// is at most a tolerance: 2 % of the 75 % quantile of |e|, or the rounding of the file if this is
-/// larger. Between two lines of two or more rows, a corner is their intersection.
+/// is at most a tolerance: 2 % of the 75 % quantile of |e|, or the rounding of the file (of values,
+/// and of times to 1 us) if this is larger. Between two lines of two or more rows, a corner is their
+/// intersection.
 #pragma once
 
 #include <optional>
@@ -20,29 +21,36 @@ namespace awmr {
 
 /// Returns the readings of a column at the ascending times `t_s`, or nothing if it is not
 /// interpolated. Criteria for interpolation:
-///   - at least 10 % more rows are on lines than other rows near the tolerance let expect;
+///   - at least 10 % more rows are on lines than the number of rows near the tolerance predicts;
 ///   - rows on lines are typically off by at most the rounding or 1 % of the tolerance, other
 ///     rows by at least three tolerances;
-///   - at least 80 % of the time spans between corners are about equal, 1.9 to 20 rows;
-///   - the readings cover at least 80 % of the time.
-/// `rounding`: printed_resolution() of the column, in the unit of `value`.
+///   - at least 80 % of the time spans between corners are about equal, at least 1.9 rows;
+///   - at least 95 % of the rows are on the lines between the readings, which cover at least 80 % of
+///     the time.
+/// These tests are made with all rows, with every second and with every fourth row.
+/// `rounding`: smallest_step() of the column.
 std::optional<Readings> interpolated_readings(std::span<const double> t_s,
                                               std::span<const double> value, double rounding);
 
 /// Returns the readings of a column at the times `readings_s`, at which another column had
-/// readings, or nothing if this column was not interpolated between these times.
+/// readings, or nothing if this column was not interpolated between these times, or has fewer
+/// readings.
 std::optional<Readings> interpolated_between(std::span<const double> readings_s,
                                              std::span<const double> t_s,
                                              std::span<const double> value, double rounding);
 
 /// Returns the values at the times `readings_s` of a command that changes only in the first row
 /// after such a time: a program held each value of the slower log until the next. Nothing for other
-/// commands, and for fewer than 10 changes.
+/// commands, for fewer than 10 changes, and for a change in a gap of the readings.
 std::optional<Readings> changing_at(std::span<const double> readings_s, std::span<const double> t_s,
                                     std::span<const double> value);
 
+/// Smallest difference between two different values of a column; 0 if all are equal. For rounded
+/// values, this is the resolution of the file, in the unit of `value`.
+double smallest_step(std::span<const double> value);
+
 /// Largest power of ten, 1 to 1e-9, of which all values are multiples: the last decimal place of
-/// the numbers in a file. 0 if there is none.
+/// the numbers in a file. 0 if there is none. For columns with few different values.
 double printed_resolution(std::span<const double> value);
 
 }  // namespace awmr

@@ -38,11 +38,11 @@ void add_corner_after(const LinedColumn& column, std::size_t row, Readings& corn
 /// Adds the corners between two lines: one that ends with the row `end`, and the next one that
 /// begins with the row `begin` and has at least three rows. Any lines between them have two rows.
 void add_corners(const LinedColumn& column, std::size_t end, std::size_t begin, Readings& corners) {
-  constexpr std::size_t kMostRows = 15;
+  constexpr std::size_t kMaxRows = 15;
   if (begin == end) {
     corners.t_s.push_back(column.t_s[end]);
     corners.value.push_back(column.value[end]);
-  } else if ((begin - end) % 2 == 1 && begin - end <= kMostRows) {
+  } else if ((begin - end) % 2 == 1 && begin - end <= kMaxRows) {
     for (std::size_t row = end; row < begin; row += 2) add_corner_after(column, row, corners);
   }
 }
@@ -64,19 +64,25 @@ LinedColumn lined_column(std::span<const double> t_s, std::span<const double> va
   constexpr double kSmall = 0.02;
   constexpr double kRounding = 1.01;  // e of three values that are each rounded by half a unit
   constexpr double kArithmetic = 1e-12;
+  constexpr double kTimeRounding_s = 1e-6;
   const std::vector<double> deviations = column.deviations();
   if (!deviations.empty()) {
     const auto [least, most] = std::ranges::minmax(value);
+    double steepest = 0.0;
+    for (std::size_t i = 0; i + 1 < value.size(); ++i) {
+      steepest = std::max(steepest, std::abs(slope_from(column, i)));
+    }
     column.tolerance = std::max({kSmall * quantile(deviations, 0.75), kRounding * rounding,
+                                 kTimeRounding_s * steepest,
                                  kArithmetic * std::max(std::abs(least), std::abs(most))});
   }
   return column;
 }
 
 bool has_lines(const LinedColumn& column) {
-  constexpr std::size_t kFewest = 30;
+  constexpr std::size_t kMin = 30;
   const std::vector<double> deviations = column.deviations();
-  if (deviations.size() < kFewest) return false;
+  if (deviations.size() < kMin) return false;
   std::vector<double> on_line;
   std::vector<double> others;
   double near = 0.0;  // rows between one and three tolerances
@@ -120,10 +126,10 @@ double median_step_of(std::span<const double> t_s) {
 }
 
 bool are_evenly_spaced(const LinedColumn& column, const Readings& corners) {
-  constexpr std::size_t kFewest = 20;
+  constexpr std::size_t kMin = 20;
   constexpr double kMostlyEqual = 0.8;
   constexpr double kApart = 0.4;
-  if (corners.t_s.size() < kFewest) return false;
+  if (corners.t_s.size() < kMin) return false;
   const double usual_s = median_step_of(corners.t_s);
   const double row_s = median_step_of(column.t_s);
   double equal = 0.0;

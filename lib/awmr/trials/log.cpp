@@ -342,10 +342,9 @@ std::vector<ChannelColumn> columns_in(TrialReader& reader, RowSpan rows, Driving
   for (const LogChannel channel : kChannels) {
     const ChannelInfo& about = info(channel);
     if (!reader.has(about.column) || std::ranges::count(unmeasured, channel) > 0) continue;
-    ChannelColumn column{channel, values_of(reader, rows, about.column, 1.0),
+    ChannelColumn column{channel, values_of(reader, rows, about.column, about.to_si),
                          rows_present(reader, rows, about.column)};
-    column.rounding = printed_resolution(column.value) * about.to_si;
-    for (double& value : column.value) value *= about.to_si;
+    column.rounding = smallest_step(column.value);
     if (channel == LogChannel::kHeading) {
       if (!speed_mps.empty()) {
         set_aside_course_at_rest(log, speed_mps, column.value, column.present, findings);

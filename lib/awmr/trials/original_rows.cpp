@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "awmr/core/containers.h"
@@ -19,7 +20,7 @@ namespace {
 struct CommandColumn {
   const char* name;
   std::vector<double>* value;
-  double rounding;                        ///< printed_resolution() of the column, SI
+  double to_si;                           ///< SI value = value in the file times `to_si`
   std::optional<Readings> readings = {};  ///< its values at the times of a channel's readings
   bool is_interpolated = false;           ///< false: held between these times
 };
@@ -34,7 +35,9 @@ struct Recovered {
 /// the column's own readings.
 std::optional<Readings> readings_of(const DrivingLog& log, const ChannelColumn& column,
                                     const std::vector<std::optional<Readings>>& others) {
-  if (column.present.size() != log.rows()) return std::nullopt;
+  // A steering angle without a command is the input of the model, which is needed in every row.
+  const bool is_input = column.channel == LogChannel::kSteering && !log.steering_command_rad;
+  if (column.present.size() != log.rows() || is_input) return std::nullopt;
   for (const std::optional<Readings>& other : others) {
     if (!other) continue;
     if (auto same = interpolated_between(other->t_s, log.t_s, column.value, column.rounding)) {
@@ -46,23 +49,26 @@ std::optional<Readings> readings_of(const DrivingLog& log, const ChannelColumn& 
 
 Recovered recovered_of(DrivingLog& log, const std::vector<ChannelColumn>& columns) {
   Recovered recovered;
-  for (const ChannelColumn& column : columns) {
-    recovered.channels.push_back(readings_of(log, column, recovered.channels));
+  recovered.channels.resize(columns.size());
+  for (int round = 0; round < 2; ++round) {  // later columns can help earlier ones
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      std::optional<Readings>& channel = recovered.channels[i];
+      if (!channel) channel = readings_of(log, columns[i], recovered.channels);
+    }
   }
-  recovered.commands = {{"force_left", &log.force_left, printed_resolution(log.force_left)},
-                        {"force_right", &log.force_right, printed_resolution(log.force_right)}};
+  recovered.commands = {{"force_left", &log.force_left, 1.0},
+                        {"force_right", &log.force_right, 1.0}};
   if (log.steering_command_rad) {
-    const double to_si = info(LogChannel::kSteering).to_si;
-    std::vector<double> printed = *log.steering_command_rad;
-    for (double& angle : printed) angle /= to_si;
     recovered.commands.push_back(
-        {"steering_cmd_deg", &*log.steering_command_rad, printed_resolution(printed) * to_si});
+        {"steering_cmd_deg", &*log.steering_command_rad, info(LogChannel::kSteering).to_si});
   }
   for (CommandColumn& command : recovered.commands) {
+    std::vector<double> in_file = *command.value;
+    for (double& one : in_file) one /= command.to_si;
+    const double rounding = printed_resolution(in_file) * command.to_si;
     for (const std::optional<Readings>& channel : recovered.channels) {
       if (!channel || command.readings) continue;
-      command.readings =
-          interpolated_between(channel->t_s, log.t_s, *command.value, command.rounding);
+      command.readings = interpolated_between(channel->t_s, log.t_s, *command.value, rounding);
       command.is_interpolated = command.readings.has_value();
       if (!command.readings) {
         command.readings = changing_at(channel->t_s, log.t_s, *command.value);
@@ -100,24 +106,34 @@ std::vector<double> times_of_rows(const DrivingLog& log, const std::vector<Chann
   return all_s;
 }
 
-/// For each of the times `to_s`, the last of the times `from_s` that is at most `same_s` later (the
-/// first one if there is none). Both ascend.
-std::vector<std::size_t> last_before(const std::vector<double>& to_s,
-                                     const std::vector<double>& from_s, double same_s) {
-  std::vector<std::size_t> last;
-  std::size_t at = 0;
+/// For each of the times `to_s`, the number of times `from_s` that are at most `same_s` later. Both
+/// ascend.
+std::vector<std::size_t> counts_until(const std::vector<double>& to_s,
+                                      const std::vector<double>& from_s, double same_s) {
+  std::vector<std::size_t> counts;
+  std::size_t count = 0;
   for (const double t : to_s) {
-    while (at + 1 < from_s.size() && from_s[at + 1] < t + same_s) ++at;
-    last.push_back(at);
+    while (count < from_s.size() && from_s[count] < t + same_s) ++count;
+    counts.push_back(count);
   }
-  return last;
+  return counts;
 }
 
-/// Rows, in ascending order, at the times `t_s`: the rows whose `last` index is a new one.
-std::vector<std::size_t> rows_of_each(const std::vector<std::size_t>& last) {
+/// Values of a column in the new rows. `counts`: for each row, the number of readings up to it; a
+/// row has the last of these readings. Rows before the first reading have the values `before`.
+std::vector<double> held(const Readings& readings, const std::vector<std::size_t>& counts,
+                         std::vector<double> before) {
+  for (std::size_t row = 0; row < counts.size(); ++row) {
+    if (counts[row] > 0) before[row] = readings.value[counts[row] - 1];
+  }
+  return before;
+}
+
+/// The rows, in ascending order, in which the number of readings increases.
+std::vector<std::size_t> rows_with_readings(const std::vector<std::size_t>& counts) {
   std::vector<std::size_t> rows;
-  for (std::size_t row = 0; row < last.size(); ++row) {
-    if (row == 0 || last[row] != last[row - 1]) rows.push_back(row);
+  for (std::size_t row = 0; row < counts.size(); ++row) {
+    if (counts[row] > (row == 0 ? 0 : counts[row - 1])) rows.push_back(row);
   }
   return rows;
 }
@@ -126,23 +142,21 @@ std::vector<std::size_t> rows_of_each(const std::vector<std::size_t>& last) {
 Finding note_of(const DrivingLog& log, const std::vector<ChannelColumn>& columns,
                 const Recovered& recovered) {
   std::vector<std::string> names;
-  double rate_hz = 0.0;
+  const auto add = [&](std::string_view name, const Readings& readings) {
+    names.push_back(fmt::format("{} ({:.3g} Hz)", name, 1.0 / median_step_of(readings.t_s)));
+  };
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const std::optional<Readings>& readings = recovered.channels[i];
-    if (!readings) continue;
-    names.emplace_back(info(columns[i].channel).column);
-    const double duration_s = readings->t_s.back() - readings->t_s.front();
-    rate_hz = static_cast<double>(readings->t_s.size() - 1) / duration_s;
+    if (recovered.channels[i]) add(info(columns[i].channel).column, *recovered.channels[i]);
   }
   for (const CommandColumn& command : recovered.commands) {
-    if (command.is_interpolated) names.emplace_back(command.name);
+    if (command.is_interpolated) add(command.name, *command.readings);
   }
   return {log.file, 0, Severity::kNote, "interpolated-readings",
-          fmt::format("the values of {} are on straight lines between readings at about {:.3g} Hz: "
-                      "another program interpolated them. Nothing needs to be done: awmr has "
-                      "recovered the readings and uses only these. It is better to give each "
-                      "signal at its own times, with empty cells in between",
-                      fmt::join(names, ", "), rate_hz)};
+          fmt::format("the values of these columns are on straight lines between slower readings: "
+                      "{}. Another program interpolated them. Nothing needs to be done: awmr has "
+                      "recovered the readings and uses only these. Next time, log each signal at "
+                      "its own times, with empty cells in between",
+                      fmt::join(names, ", "))};
 }
 
 }  // namespace
@@ -157,24 +171,23 @@ void recover_original_rows(DrivingLog& log, std::vector<ChannelColumn>& columns,
   findings.push_back(note_of(log, columns, recovered));
   const double same_s = 1e-3 * log.median_step_s();
   const std::vector<double> t_s = times_of_rows(log, columns, recovered, same_s);
-  const std::vector<std::size_t> old_row = last_before(t_s, log.t_s, same_s);
+  std::vector<std::size_t> old_row = counts_until(t_s, log.t_s, same_s);
+  for (std::size_t& row : old_row) row -= std::min<std::size_t>(row, 1);  // the last row until then
   for (CommandColumn& command : recovered.commands) {
+    std::vector<double> of_file = picked(*command.value, old_row);
     const std::optional<Readings>& readings = command.readings;
-    *command.value = readings ? picked(readings->value, last_before(t_s, readings->t_s, same_s))
-                              : picked(*command.value, old_row);
+    *command.value =
+        readings ? held(*readings, counts_until(t_s, readings->t_s, same_s), std::move(of_file))
+                 : std::move(of_file);
   }
   for (std::size_t i = 0; i < columns.size(); ++i) {
     ChannelColumn& column = columns[i];
     const std::optional<Readings>& readings = recovered.channels[i];
-    const std::vector<std::size_t> last =
-        readings ? last_before(t_s, readings->t_s, same_s) : old_row;
-    column.value = picked(readings ? readings->value : column.value, last);
-    if (readings) {
-      column.present = rows_of_each(last);
-    } else {
-      const std::vector<double> present_s = picked(log.t_s, column.present);
-      column.present = rows_of_each(last_before(t_s, present_s, same_s));
-    }
+    const std::vector<std::size_t> counts =
+        counts_until(t_s, readings ? readings->t_s : picked(log.t_s, column.present), same_s);
+    std::vector<double> of_file = picked(column.value, old_row);
+    column.value = readings ? held(*readings, counts, std::move(of_file)) : std::move(of_file);
+    column.present = rows_with_readings(counts);
   }
   log.line = picked(log.line, old_row);
   log.t_s = t_s;

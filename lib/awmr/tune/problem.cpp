@@ -120,6 +120,7 @@ void Problem::add_runs(const Evaluation& e, Looked& looked) const {
   Candidate& candidate = looked.candidate;
   candidate.simulated = true;
   candidate.valid = e.valid;
+  candidate.meets_constraints = candidate.meets_constraints && e.valid;
   candidate.objective = e.objective;
   std::vector<double> broken;
   if (options_.activity_max) {

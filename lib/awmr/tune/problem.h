@@ -53,8 +53,10 @@ struct Candidate {
   double objective = 0.0;  ///< value of the objective; meaningful only if `simulated`
   /// True if the runs were simulated. False if a constraint is violated before any run.
   bool simulated = false;
-  bool valid = false;              ///< true: the objective is finite, and no run breaks off
-  bool meets_constraints = false;  ///< true: meets the constraints that need no simulation
+  bool valid = false;  ///< true: the objective is finite, and no run breaks off
+  /// True if the gains meet the constraints that need no simulation, and no simulated run breaks
+  /// off.
+  bool meets_constraints = false;
 
   bool feasible() const { return simulated && valid && violation <= 0.0; }
 };

@@ -47,8 +47,9 @@ std::string unsettled_text(const Objective& objective, const ConstraintContext& 
       changes.empty() ? no_change_settles("the runs") : describe(changes, "the runs"));
 }
 
-/// Factor of a limit, rounded up to three digits.
+/// Factor of a limit, rounded up to three digits; infinite if a run never reaches the goal.
 double rounded_up(double factor) {
+  if (!std::isfinite(factor)) return factor;
   const double digit = std::pow(10.0, std::floor(std::log10(factor)) - 2.0);
   return digit * std::ceil(factor / digit - 1e-9);
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -110,51 +109,65 @@ std::string pointer_to(const std::string& constraint) {
   return limit ? fmt::format("/{}", limit->key) : "/bounds";
 }
 
-std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context) {
-  constexpr double kShares[] = {0.25, 0.5, 0.75, 1.0};
+namespace {
+
+/// Less strict values of the limit of the steering rate, ascending; relaxed_limits() has the rule.
+std::vector<double> relaxed_steering_rates(const ConstraintContext& context) {
   constexpr double kFactors[] = {1.2, 2.0, 5.0, 20.0};
+  constexpr double kMaxOfServo = 2.0;
   constexpr double kSharesOfServo[] = {0.1, 0.3, 0.9};
+  const auto& rate = context.limits.steering_rate_rms_degps;
+  if (!rate || !context.steers()) return {};
+  std::vector<double> numbers;
+  const auto add = [&](double number) {
+    if (std::ceil(number) > std::max(*rate, numbers.empty() ? 0.0 : numbers.back())) {
+      numbers.push_back(std::ceil(number));
+    }
+  };
+  for (const double factor : kFactors) {
+    if (factor * *rate <= kMaxOfServo * context.servo_rate_degps) add(factor * *rate);
+  }
+  for (const double share : kSharesOfServo) add(share * context.servo_rate_degps);
+  return numbers;
+}
+
+/// Less strict values of another limit, strictest first; relaxed_limits() has the rule. `strict`:
+/// its present value, `loose`: its default.
+std::vector<double> relaxed_numbers(const Limit& limit, double strict, double loose) {
+  constexpr double kShares[] = {0.25, 0.5, 0.75, 1.0};
   constexpr double kBeyond[] = {1.4, 2.0};
-  constexpr double kOfServo = 2.0;
+  std::vector<double> numbers;
+  for (const double share : kShares) {
+    const double number = in_two_digits(limit, strict + share * (loose - strict));
+    if (limit.relaxed_by_less ? number < strict : number > strict) numbers.push_back(number);
+  }
+  // The margin of T2 < T1 is not relaxed beyond its default.
+  if (sets(limit, "T2 < T1 (strict)")) return numbers;
+  for (const double factor : kBeyond) {
+    const double number =
+        limit.relaxed_by_less ? std::min(strict, loose) / factor : std::max(strict, loose) * factor;
+    numbers.push_back(in_two_digits(limit, number));
+  }
+  return numbers;
+}
+
+}  // namespace
+
+std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context) {
   ConstraintContext given = context;
   ConstraintContext by_default;
   std::vector<std::vector<RelaxedLimit>> all;
   for (const Limit& limit : limits()) {
-    std::vector<RelaxedLimit> numbers;
-    const auto add = [&](double number) {
-      numbers.push_back({.key = limit.key,
-                         .number = number,
-                         .is_steering_rate = sets(limit, kSteeringRate),
-                         .context = context});
-      limit.of(numbers.back().context) = number;
-    };
-    if (sets(limit, kSteeringRate)) {
-      const auto& rate = context.limits.steering_rate_rms_degps;
-      if (!rate || !context.steers()) continue;
-      const double most = kOfServo * context.servo_rate_degps;
-      for (const double factor : kFactors) {
-        if (factor * *rate <= most) add(std::ceil(factor * *rate));
-      }
-      for (const double share : kSharesOfServo) {
-        const double number = std::ceil(share * context.servo_rate_degps);
-        if (number > kFactors[std::size(kFactors) - 1] * *rate) add(number);
-      }
-    } else {
-      const double strict = limit.of(given);
-      const double loose = limit.of(by_default);
-      for (const double share : kShares) {
-        const double number = in_two_digits(limit, strict + share * (loose - strict));
-        if (limit.relaxed_by_less ? number < strict : number > strict) add(number);
-      }
-      // The margin of T2 < T1 is not relaxed beyond its default.
-      const bool may_exceed_default = !sets(limit, "T2 < T1 (strict)");
-      for (const double factor : kBeyond) {
-        const double number = limit.relaxed_by_less ? std::min(strict, loose) / factor
-                                                    : std::max(strict, loose) * factor;
-        if (may_exceed_default) add(in_two_digits(limit, number));
-      }
+    const bool is_rate = sets(limit, kSteeringRate);
+    std::vector<RelaxedLimit> relaxed;
+    for (const double number :
+         is_rate ? relaxed_steering_rates(context)
+                 : relaxed_numbers(limit, limit.of(given), limit.of(by_default))) {
+      relaxed.push_back(
+          {.key = limit.key, .number = number, .is_steering_rate = is_rate, .context = context});
+      limit.of(relaxed.back().context) = number;
     }
-    if (!numbers.empty()) all.push_back(std::move(numbers));
+    if (!relaxed.empty()) all.push_back(std::move(relaxed));
   }
   return all;
 }

@@ -167,7 +167,9 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
     const Candidate& after = problem.nearest;
     const double gained =
         after.feasible() ? before.objective - after.objective : before.violation - after.violation;
-    if (after.feasible() == before.feasible() && !(gained >= kWorthwhile)) break;
+    const bool is_same_group = after.feasible() == before.feasible() &&
+                               after.meets_constraints == before.meets_constraints;
+    if (is_same_group && !(gained >= kWorthwhile)) break;
     from = after.gains;
   }
   return stop;

@@ -28,7 +28,20 @@
 namespace awmr {
 namespace {
 
-bool is_of_damping(const SettlingChange& change) { return change.pointer.ends_with("damping"); }
+/// Gains with which runs settle only in a longer time can be slow because of the limits of the
+/// damping. If relaxing such a limit lets the runs settle, replaces the effect of noise by the
+/// changes with which they settle.
+void replace_by_damping(const ObjectiveSetting& setting, const Gains<double>& gains,
+                        SettlingSearch& search, UnsettledRuns& unsettled) {
+  if (!(unsettled.noise->time_factor > 1.0)) return;
+  std::vector<SettlingChange> changes = search.changes(setting, gains, kSettledShare);
+  const auto is_of_damping = [](const SettlingChange& change) {
+    return change.pointer.ends_with("damping");
+  };
+  if (std::ranges::none_of(changes, is_of_damping)) return;
+  unsettled.noise.reset();
+  unsettled.changes = std::move(changes);
+}
 
 /// Returns why runs do not settle in one scenario and mode, and the changes with which they settle.
 /// To save time, it tries causes and changes of the gains only on the nominal vehicle and the first
@@ -49,13 +62,7 @@ UnsettledRuns unsettled_in(const ObjectiveSetting& setting, const ConstraintCont
   unsettled.friction = friction_effect(few, gains, mode);
   unsettled.noise = noise_effect(few, gains);
   if (unsettled.noise) {
-    // Gains that need more time can be slow because of the limits of the damping, not of noise.
-    if (unsettled.noise->time_factor == 1.0) return unsettled;
-    std::vector<SettlingChange> changes = search.changes(few, gains, kSettledShare);
-    if (std::ranges::any_of(changes, is_of_damping)) {
-      unsettled.noise.reset();
-      unsettled.changes = std::move(changes);
-    }
+    replace_by_damping(few, gains, search, unsettled);
     return unsettled;
   }
   if (few.vehicles.size() > 1 && !is_varied) {

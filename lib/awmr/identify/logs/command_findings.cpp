@@ -56,21 +56,19 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
                                : "which is more likely a dead time than motor lag")};
 }
 
-/// True for a motor lag or a delay that is too short to be told from the unknown times at which
-/// commands change between rows (LogFit::change_reach_s).
+/// True for a time that cannot be distinguished from the unknown times at which commands change
+/// between rows (LogFit::change_reach_s). A common delay of all commands, or a lag of the motors, can
+/// be an error of these times up to their reach. The time of one channel relative to the others
+/// depends on them only because the fit is linear in them, by about an eighth of the row spacing.
 bool is_within_rows(const FoundTerm& term, const LogFit& fit) {
   constexpr double kShare = 0.25;
-  switch (term.quantity.kind) {
-    case Kind::kMotorLag:
-      return term.value < fit.change_reach_s;
-    case Kind::kDelay:
-      return std::abs(term.value) < fit.change_reach_s + 2.0 * term.error;
-    case Kind::kSensorDelay:
-    case Kind::kSteeringDelay:
-      return std::abs(term.value) < kShare * fit.change_reach_s;
-    default:
-      return false;
+  const Kind kind = term.quantity.kind;
+  if (kind == Kind::kDelay || kind == Kind::kMotorLag) {
+    return std::abs(term.value) < fit.change_reach_s + 2.0 * term.error;
   }
+  const bool is_relative = kind == Kind::kSensorDelay || kind == Kind::kSteeringDelay;
+  return is_relative && fit.change_reach_s > 0.0 &&
+         std::abs(term.value) < kShare * fit.change_reach_s + 2.0 * term.error;
 }
 
 /// Reports a motor lag, a dead time or late time stamps of the commands if the fit has found them.
@@ -214,7 +212,7 @@ std::string slip_text(const FoundTerm& slip, const LogFit& fit) {
           ? fmt::format("{:.1f} +- {:.1f} %", 100.0 * slip.value, 100.0 * slip.error)
           : fmt::format("{:.3f} +- {:.3f} m/s", slip.value, slip.error),
       is_implausible(slip, fit)
-          ? ". No position confirms so much slip, so the intervals are withdrawn: a sensor that is "
+          ? ". No position confirms so much slip, so all intervals are withdrawn: a sensor that is "
             "slower at low speed (speed from the time between two encoder ticks) looks the same"
           : "");
 }

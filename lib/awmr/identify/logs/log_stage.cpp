@@ -33,12 +33,12 @@ namespace {
 /// row spacing, within which commands change at unknown times. The fit is linear in these times,
 /// but the response of such a fast servo is not.
 std::optional<Finding> withdraw_fast_servo(LogFit& fit, const std::string& file) {
-  constexpr double kFast = 0.75;
+  constexpr double kShortShare = 0.75;
   const double spacing_s = 2.0 * fit.change_reach_s;
   const auto servo = place_of(fit.quantities, ParameterId::kSteeringTimeConstant);
   if (!servo || !fit.report.parameters[*servo].std_error) return std::nullopt;
   const double servo_s = fit.report.parameters[*servo].value;
-  if (!(servo_s < kFast * spacing_s)) return std::nullopt;
+  if (!(servo_s < kShortShare * spacing_s)) return std::nullopt;
   withdraw_intervals(fit.report, info(ParameterId::kSteeringTimeConstant).name);
   return Finding{
       file, 0, Severity::kWarning, "changes-between-rows",

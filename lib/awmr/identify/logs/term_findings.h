@@ -56,9 +56,9 @@ bool saturates_much(const LogFit& fit);
 /// half of the track width, r: yaw rate).
 bool has_implausible_imbalance(const LogFit& fit);
 
-/// True if the wheels that measure the speed or the yaw rate slip by more than a quarter at the
-/// largest force, and no position confirms it. Such values come from sensors that react late at low
-/// speed, rather than from slip.
+/// True if the slip ratio of the wheels that measure the speed or the yaw rate exceeds a quarter at
+/// the largest force, and no position confirms it. A sensor that reacts late at low speed has the
+/// same effect as slip.
 bool has_implausible_slip(const LogFit& fit);
 
 /// Withdraws the intervals of a resistance whose Stribeck friction is above 5 % of its Coulomb
