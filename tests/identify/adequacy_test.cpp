@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "awmr/identify/logs/term_findings.h"
 #include "identify/synthetic_log.h"
 
 namespace awmr::testing {
@@ -77,6 +79,52 @@ TEST(Adequacy, NamesCausesOfTheChannel) {
   EXPECT_TRUE(names_cause(sway, "sway.alpha"));
   EXPECT_FALSE(names_cause(sway, "half_track_m")) << "only the causes of a sway speed";
   EXPECT_TRUE(sway.withdraws_sway);
+}
+
+/// Fit with one delay, lag or error of the value `value` and a small standard error.
+LogFit fit_with_term(const FreeQuantity& quantity, double value) {
+  LogFit fit;
+  fit.quantities = {quantity};
+  fit.coordinates = {value};
+  fit.covariance = Eigen::MatrixXd::Constant(1, 1, 1e-8);
+  fit.refusal_reason = {""};
+  fit.noise = {{LogChannel::kSpeed, noise_with(0.0)}};
+  fit.report.parameters = {{quantity.name(), value, 1e-4, {}, {}}};
+  return fit;
+}
+
+TEST(WheelSlip, OfMoreThanAQuarterNeedsAPosition) {
+  const FreeQuantity ratio = wheel_slip_of(LogChannel::kSpeed, true);
+  EXPECT_FALSE(has_implausible_slip(fit_with_term(ratio, 0.2)));
+  LogFit large = fit_with_term(ratio, 0.3);
+  EXPECT_TRUE(has_implausible_slip(large));
+  large.noise[LogChannel::kX] = noise_with(0.0);
+  EXPECT_FALSE(has_implausible_slip(large));
+}
+
+/// Codes of the findings about a delay or lag of this size if commands change up to 10 ms before or
+/// after their expected times.
+std::vector<std::string> codes_with(const FreeQuantity& quantity, double value) {
+  LogFit fit = fit_with_term(quantity, value);
+  fit.change_reach_s = 0.01;
+  std::vector<std::string> codes;
+  for (const Finding& finding : command_and_sensor_findings(fit, false, "log.csv")) {
+    codes.push_back(finding.code);
+  }
+  return codes;
+}
+
+TEST(CommandFindings, LeaveOutTimesWithinTheRowSpacing) {
+  using Kind = FreeQuantity::Kind;
+  const FreeQuantity sensor = free_term(Kind::kSensorDelay, LogChannel::kSpeed);
+  for (const auto& [quantity, within, beyond, code] :
+       {std::tuple(free_term(Kind::kDelay), 0.009, 0.012, "actuator-lag"),
+        std::tuple(free_term(Kind::kMotorLag), 0.009, 0.012, "actuator-lag"),
+        std::tuple(free_term(Kind::kSteeringDelay), 0.002, 0.004, "steering-delay"),
+        std::tuple(sensor, 0.002, 0.004, "sensor-delay")}) {
+    EXPECT_TRUE(codes_with(quantity, within).empty()) << code;
+    EXPECT_EQ(codes_with(quantity, beyond), std::vector<std::string>{code}) << quantity.name();
+  }
 }
 
 }  // namespace

@@ -243,5 +243,73 @@ TEST(ForceLog, NamesSetPointsOfASpeedController) {
   EXPECT_FALSE(result->model[ParameterId::kMassNorm].ci95);
 }
 
+/// Log of a differential robot (m' = 0.5 s^2/m, I'z = 0.03 s^2 m, g1 = 0.6 u^0.9, g3 = 0.075 r^0.8,
+/// half track 0.2 m) whose motors have the dead zones 0.05 (left) and 0.09 (right).
+DrivingLog log_of_unequal_dead_zones() {
+  constexpr int kRows = 2000;
+  constexpr int kStepsOfRow = 20;
+  constexpr double kEulerStep_s = 0.001;
+  constexpr double kHalfTrack_m = 0.2;
+  Random random(3, 7);
+  DrivingLog log;
+  Measured speed;
+  Measured yaw_rate;
+  SideForces<double> command{0.0, 0.0};
+  double u_mps = 0.0;
+  double r_radps = 0.0;
+  const auto beyond = [](double f, double zone) {
+    return std::abs(f) > zone ? f - std::copysign(zone, f) : 0.0;
+  };
+  const auto power = [](double a, double v, double b) {
+    return a * std::copysign(std::pow(std::abs(v), b), v);
+  };
+  for (int row = 0; row < kRows; ++row) {
+    if (row % 35 == 0) {
+      const double mean = 0.5 * random.uniform() - 0.1;
+      const double half = 0.3 * (random.uniform() - 0.5);
+      command = {mean - half, mean + half};
+    }
+    log.t_s.push_back(row * kStepsOfRow * kEulerStep_s);
+    log.line.push_back(row + 2);
+    log.force_left.push_back(command.left);
+    log.force_right.push_back(command.right);
+    speed.value.push_back(u_mps + 0.005 * random.normal());
+    yaw_rate.value.push_back(r_radps + 0.005 * random.normal());
+    const double left = beyond(command.left, 0.05);
+    const double right = beyond(command.right, 0.09);
+    for (int step = 0; step < kStepsOfRow; ++step) {
+      u_mps += kEulerStep_s * (2.0 * (left + right) - power(0.6, u_mps, 0.9)) / 0.5;
+      r_radps +=
+          kEulerStep_s * (2.0 * kHalfTrack_m * (right - left) - power(0.075, r_radps, 0.8)) / 0.03;
+    }
+  }
+  log.file = "dead_zones.csv";
+  log.steering_command_rad = std::vector<double>(log.rows(), 0.0);
+  for (Measured* const channel : {&speed, &yaw_rate}) {
+    channel->fresh.assign(log.rows(), true);
+    channel->fresh_count = kRows;
+  }
+  log[LogChannel::kSpeed] = std::move(speed);
+  log[LogChannel::kYawRate] = std::move(yaw_rate);
+  return log;
+}
+
+TEST(ForceLog, FindsUnequalDeadZonesOfTheMotors) {
+  Vehicle vehicle = robot();
+  vehicle.drive = Drive::kDifferential;
+  vehicle.half_track_m = 0.2;
+  TrialData data;
+  data.logs = {log_of_unequal_dead_zones()};
+  const auto result = identify(vehicle, data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "unequal-dead-zones"));
+  EXPECT_FALSE(has_finding(*result, "force-imbalance"));
+  expect_estimated(*result, "motor.dead_zone_difference", 0.02);
+  expect_recovered(*result, ParameterId::kWheelDeadZone, 0.07, 4.0);
+  expect_recovered(*result, ParameterId::kMassNorm, 0.5, 4.0);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.03, 4.0);
+  expect_recovered(*result, ParameterId::kYawAlpha, 0.075, 4.0);
+}
+
 }  // namespace
 }  // namespace awmr::testing

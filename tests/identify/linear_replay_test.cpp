@@ -346,8 +346,8 @@ TEST(LinearReplay, DerivativeByASensorDelayIsTheRateOfTheMotion) {
 /// Number of command errors. Their indices: 0 steering trim, rad; 1 force imbalance; 2 saturation
 /// of the forces; 3 logarithm of its sharpness; 4 logarithm of the exponent of the forces; 5 rate
 /// limit of the servo, rad/s; 6 dead band of the steering, rad; 7 asymmetry of the steering; 8 its
-/// curve; 9 its scale error; 10 sag of the supply.
-constexpr std::size_t kErrors = 11;
+/// curve; 9 its scale error; 10 sag of the supply; 11 half the difference of the dead zones.
+constexpr std::size_t kErrors = 12;
 using CommandErrors = std::array<double, kErrors>;
 
 /// Simulates the log with these errors of the commands, and derivatives with respect to them only.
@@ -362,6 +362,7 @@ std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors
   path.terms[Kind::kForceExponent] = {std::exp(errors[4]), 4};
   path.terms[Kind::kServoRate] = {errors[5], 5};
   path.terms[Kind::kSupplySag] = {errors[10], 10};
+  path.terms[Kind::kDeadZoneDifference] = {errors[11], 11};
   if (log.steering_command_rad) {
     path.terms[Kind::kSteeringDeadBand] = {errors[6], 6};
     path.terms[Kind::kSteeringAsymmetry] = {errors[7], 7};
@@ -383,7 +384,7 @@ std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors
 
 TEST(LinearReplay, OfErrorsOfTheCommandsHasTheDerivativesOfCentralDifferences) {
   constexpr double kApart = 1e-6;
-  const CommandErrors errors{0.03, -0.08, 0.2, 1.2, -0.2, 1.5, 0.05, 0.1, 0.15, -0.1, 0.12};
+  const CommandErrors errors{0.03, -0.08, 0.2, 1.2, -0.2, 1.5, 0.05, 0.1, 0.15, -0.1, 0.12, 0.02};
   for (const bool servo : {true, false}) {
     const DrivingLog log = commands(servo);
     const std::vector<LinearMotion> here = with_errors(log, errors);

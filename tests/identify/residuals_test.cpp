@@ -186,6 +186,8 @@ INSTANTIATE_TEST_SUITE_P(
                   {free_term(FreeQuantity::Kind::kDelay), 0.023},
                   {free_term(FreeQuantity::Kind::kMotorLag), 0.047},
                   {free_term(FreeQuantity::Kind::kForceImbalance), 0.06}}},
+        TermCase{"DeadZoneDifference",
+                 {{free_term(FreeQuantity::Kind::kDeadZoneDifference), 0.03}}},
         TermCase{"AxleOffset", {{extra_force(ExtraForce::kAxleOffset), 0.3}}},
         TermCase{"Antenna",
                  {{free_term(FreeQuantity::Kind::kPositionAhead), 0.3},

@@ -16,6 +16,7 @@ inline constexpr std::string_view kSteeringCurveName = "steering.curve";
 inline constexpr std::string_view kSteeringScaleName = "steering.scale";
 inline constexpr std::string_view kServoRateName = "steering.max_rate_radps";
 inline constexpr std::string_view kForceImbalanceName = "motor.imbalance";
+inline constexpr std::string_view kDeadZoneDifferenceName = "motor.dead_zone_difference";
 inline constexpr std::string_view kForceRiseName = "motor.rise_time_s";
 inline constexpr std::string_view kForceFallName = "motor.fall_time_s";
 inline constexpr std::string_view kForceExponentName = "motor.exponent";

@@ -33,18 +33,18 @@ bool is_estimated_name(std::string_view name) {
          name == kSteeringTrimName || name == kSteeringDeadBandName ||
          name == kSteeringAsymmetryName || name == kSteeringCurveName ||
          name == kSteeringScaleName || name == kServoRateName || name == kForceImbalanceName ||
-         name == kForceExponentName || name == kForceRiseName || name == kForceFallName ||
-         name == kForceSaturationName || name == kSaturationSharpnessName ||
-         name == kSupplySagName || name == kSwayOffsetName || name == kSwayAngleName ||
-         name == kSpeedOffsetName || name == kPositionAheadName || name == kPositionLeftName ||
-         name == kCompassSinName || name == kCompassCosName || name == kCompassSin2Name ||
-         name == kCompassCos2Name || name == kMotorLagName || name == kMassOverSurgeName ||
-         name == kCoulombOverSurgeName || name == kQuadraticOverSurgeName ||
-         contains(kExtraForceNames, name) || name.starts_with(kBiasPrefix) ||
-         name.starts_with(kSensorDelayPrefix) || name.starts_with(kSensorLagPrefix) ||
-         name.starts_with(kLagDampingPrefix) || name.starts_with(kSmoothingPrefix) ||
-         name.starts_with(kSensorScalePrefix) || name.starts_with(kSlipPrefix) ||
-         name.starts_with(kSlipRatioPrefix);
+         name == kDeadZoneDifferenceName || name == kForceExponentName || name == kForceRiseName ||
+         name == kForceFallName || name == kForceSaturationName ||
+         name == kSaturationSharpnessName || name == kSupplySagName || name == kSwayOffsetName ||
+         name == kSwayAngleName || name == kSpeedOffsetName || name == kPositionAheadName ||
+         name == kPositionLeftName || name == kCompassSinName || name == kCompassCosName ||
+         name == kCompassSin2Name || name == kCompassCos2Name || name == kMotorLagName ||
+         name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
+         name == kQuadraticOverSurgeName || contains(kExtraForceNames, name) ||
+         name.starts_with(kBiasPrefix) || name.starts_with(kSensorDelayPrefix) ||
+         name.starts_with(kSensorLagPrefix) || name.starts_with(kLagDampingPrefix) ||
+         name.starts_with(kSmoothingPrefix) || name.starts_with(kSensorScalePrefix) ||
+         name.starts_with(kSlipPrefix) || name.starts_with(kSlipRatioPrefix);
 }
 
 int count(JsonObject& json, std::string_view key) {

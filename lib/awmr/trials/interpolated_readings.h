@@ -8,8 +8,8 @@
 ///     e_i = x_i - (x_(i-1) (t_(i+1) - t_i) + x_(i+1) (t_i - t_(i-1)))/(t_(i+1) - t_(i-1))
 ///
 /// is at most a tolerance: 2 % of the 75 % quantile of |e|, or the rounding of the file (of values,
-/// and of times to 1 us) if this is larger. Between two lines of two or more rows, a corner is their
-/// intersection.
+/// and of times to 1 us) if this is larger. Between two lines of two or more rows, a corner is
+/// their intersection.
 #pragma once
 
 #include <optional>
@@ -25,8 +25,8 @@ namespace awmr {
 ///   - rows on lines are typically off by at most the rounding or 1 % of the tolerance, other
 ///     rows by at least three tolerances;
 ///   - at least 80 % of the time spans between corners are about equal, at least 1.9 rows;
-///   - at least 95 % of the rows are on the lines between the readings, which cover at least 80 % of
-///     the time.
+///   - at least 95 % of the rows are on the lines between the readings, which cover at least 80 %
+///     of the time.
 /// These tests are made with all rows, with every second and with every fourth row.
 /// `rounding`: smallest_step() of the column.
 std::optional<Readings> interpolated_readings(std::span<const double> t_s,

@@ -217,9 +217,9 @@ std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLo
 /// lists these terms.
 bool invalidates_all(std::string_view name) {
   constexpr std::string_view kOfCommands[] = {
-      kSteeringTrimName,    kSteeringDeadBandName, kSteeringAsymmetryName,
-      kSteeringCurveName,   kSteeringScaleName,    kForceImbalanceName,
-      kForceSaturationName, kForceExponentName,    kSupplySagName};
+      kSteeringTrimName,  kSteeringDeadBandName, kSteeringAsymmetryName,  kSteeringCurveName,
+      kSteeringScaleName, kForceImbalanceName,   kDeadZoneDifferenceName, kForceSaturationName,
+      kForceExponentName, kSupplySagName};
   const auto first = kExtraForceNames.begin() + static_cast<int>(ExtraForce::kSlopeX);
   return contains(kOfCommands, name) ||
          std::find(first, kExtraForceNames.end(), name) != kExtraForceNames.end();

@@ -61,7 +61,7 @@ struct LogComparison {
 /// invalid, because the other quantities absorb the effect of the term:
 ///   - the term that was fitted in addition;
 ///   - errors of the commands in the common fit: trim, dead band, asymmetry, curve and scale of the
-///     steering; imbalance, saturation and exponent of the forces;
+///     steering; imbalance, saturation and exponent of the forces, difference of the dead zones;
 ///   - forces of extra_forces.h in the common fit, except Stribeck friction.
 ///
 /// A single log of 20 s or more is tested by its parts: a fit of its first half predicts its second

@@ -57,8 +57,8 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
 }
 
 /// True for a time that cannot be distinguished from the unknown times at which commands change
-/// between rows (LogFit::change_reach_s). A common delay of all commands, or a lag of the motors, can
-/// be an error of these times up to their reach. The time of one channel relative to the others
+/// between rows (LogFit::change_reach_s). A common delay of all commands, or a lag of the motors,
+/// can be an error of these times up to their reach. The time of one channel relative to the others
 /// depends on them only because the fit is linear in them, by about an eighth of the row spacing.
 bool is_within_rows(const FoundTerm& term, const LogFit& fit) {
   constexpr double kShare = 0.25;
@@ -342,6 +342,17 @@ std::string imbalance_text(const FoundTerm& imbalance, const LogFit& fit) {
       imbalance_advice(imbalance.value, has(fit.quantities, Kind::kSteeringTrim)));
 }
 
+std::string dead_zones_text(const FoundTerm& half, const LogFit&) {
+  const bool is_right = half.value > 0.0;
+  return fmt::format(
+      "the dead zone of the {} motors, the part of a command that gives no force, is larger by "
+      "{:.3f} +- {:.2g} (F') than that of the {} motors. The fit compensates for this, but "
+      "simulations and tuned gains assume equal motors; increase the magnitude of every command to "
+      "the {} motors by this amount before it is sent, and log the commands without this increase",
+      is_right ? "right" : "left", 2.0 * std::abs(half.value), 2.0 * half.error,
+      is_right ? "left" : "right", is_right ? "right" : "left");
+}
+
 /// Largest loss of force, as a share of the force without saturation, at which the messages call
 /// the forces proportional to the commands.
 constexpr double kLinear = 0.05;
@@ -428,6 +439,7 @@ constexpr TermFinding kTermFindings[] = {
     {Kind::kForceRise, "force-ramp", ramp_text},
     {Kind::kForceFall, "force-ramp", ramp_text},
     {Kind::kForceImbalance, "force-imbalance", imbalance_text},
+    {Kind::kDeadZoneDifference, "unequal-dead-zones", dead_zones_text},
     {Kind::kForceExponent, "force-saturation", exponent_text},
     {Kind::kForceSaturation, "force-saturation", saturation_text},
     {Kind::kSupplySag, "force-saturation", sag_text}};

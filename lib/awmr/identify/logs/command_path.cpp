@@ -98,6 +98,16 @@ void unbalance(double e, DelayedCommand& at) {
   force.right *= 1.0 + e;
 }
 
+/// Adds D sgn F' to the left force and subtracts it from the right one. Behind the common dead zone
+/// F'0 of the plant, the dead zones are then F'0 - D (left) and F'0 + D (right).
+void shift_dead_zones(double difference, DelayedCommand& at) {
+  SideForces<double>& force = at.command.force;
+  const auto sign = [](double f) { return f == 0.0 ? 0.0 : std::copysign(1.0, f); };
+  at.by[Kind::kDeadZoneDifference].force = {sign(force.left), -sign(force.right)};
+  force.left += difference * sign(force.left);
+  force.right -= difference * sign(force.right);
+}
+
 /// Replaces the steering command c by the angle to which the linkage steers, and the derivatives of
 /// c with respect to the columns of the fit by those of the angle. b: dead band; e: asymmetry; k:
 /// curve; q: scale error; d_max: steering stop. With s = sgn c and the part of the command beyond
@@ -126,7 +136,7 @@ void steer_by_linkage(const CommandPath& path, DelayedCommand& at) {
 
 /// Applies the constant errors of the commands in this order: stop of the command (if
 /// CommandPath::stop_limits_command), dead band, asymmetry, curve and scale of the
-/// linkage, trim, imbalance, exponent, saturation and sag of the supply.
+/// linkage, trim, imbalance, exponent, saturation, sag of the supply, difference of the dead zones.
 DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
   const CommandTerms& terms = path.terms;
   double& steering_rad = at.command.steering_rad;
@@ -145,6 +155,9 @@ DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
   if (terms[Kind::kForceExponent]) raise_to_power(path, at);
   if (terms[Kind::kForceSaturation]) saturate(path, at);
   if (terms[Kind::kSupplySag]) sag(path, at);
+  if (terms[Kind::kDeadZoneDifference]) {
+    shift_dead_zones(terms.value(Kind::kDeadZoneDifference), at);
+  }
   return at;
 }
 

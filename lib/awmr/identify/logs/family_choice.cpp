@@ -248,8 +248,8 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
 /// them from `others`. `winner`: the fit that was first selected on this axis. `best`: the best fit
 /// now, after the choice of the other axis and of the delays. A family is compared again for one of
 /// two reasons:
-///   - The AIC has decreased from `winner` to `best`, and that of the family was higher than that of
-///     `winner` by less than this decrease, or is unknown, because its fit gave up early.
+///   - The AIC has decreased from `winner` to `best`, and that of the family was higher than that
+///     of `winner` by less than this decrease, or is unknown, because its fit gave up early.
 ///   - Its fit had other delays, lags or command errors than `best`. With wrong terms, the AIC of
 ///     the true family can be too high by any amount.
 std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const FamilyFit& best,

@@ -181,8 +181,9 @@ std::vector<FreeQuantity> all_terms() {
   for (const Kind kind :
        {Kind::kDelay, Kind::kSteeringDelay, Kind::kMotorLag, Kind::kForceRise, Kind::kForceFall,
         Kind::kSteeringTrim, Kind::kSteeringDeadBand, Kind::kSteeringAsymmetry,
-        Kind::kSteeringCurve, Kind::kForceImbalance, Kind::kForceExponent, Kind::kSwayOffset,
-        Kind::kSwayAngle, Kind::kSpeedOffset, Kind::kPositionAhead, Kind::kPositionLeft}) {
+        Kind::kSteeringCurve, Kind::kForceImbalance, Kind::kDeadZoneDifference,
+        Kind::kForceExponent, Kind::kSwayOffset, Kind::kSwayAngle, Kind::kSpeedOffset,
+        Kind::kPositionAhead, Kind::kPositionLeft}) {
     terms.push_back(free_term(kind));
   }
   for (const Kind kind : kCompassTerms) terms.push_back(free_term(kind));
@@ -227,7 +228,10 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   add_term(problem, Kind::kSteeringDelay, has(quantities, ParameterId::kSteeringTimeConstant),
            found);
   add_steering(problem, found);
-  add_term(problem, Kind::kForceImbalance, any_log(problem, has_force_difference), found);
+  const bool has_difference = any_log(problem, has_force_difference);
+  add_term(problem, Kind::kForceImbalance, has_difference, found);
+  add_term(problem, Kind::kDeadZoneDifference,
+           has_difference && has(quantities, ParameterId::kWheelDeadZone), found);
   const double full_command = largest_command(problem);
   if (full_command > 0.0) add_ramps(quantities, found);
   // A fit contains only one of an exponent, a saturation and a supply sag of the forces. Together
@@ -236,7 +240,7 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
       !has(quantities, Kind::kForceSaturation) && !has(quantities, Kind::kSupplySag)) {
     found.push_back(free_term(Kind::kForceExponent));
     found.push_back(force_saturation(full_command));
-    if (any_log(problem, has_force_difference)) found.push_back(supply_sag(full_command));
+    if (has_difference) found.push_back(supply_sag(full_command));
   }
   add_forces(problem, found);
   add_scales(problem, found);

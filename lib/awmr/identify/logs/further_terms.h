@@ -20,7 +20,8 @@ namespace awmr {
 ///   - a steering trim, if the steering moves;
 ///   - a dead band, an asymmetry and a curve of the steering, if it moves by logged commands;
 ///   - the scale of the steering angles, if the fit has such an asymmetry or curve;
-///   - a force imbalance, if left and right forces differ;
+///   - a force imbalance, if left and right forces differ; with a dead zone of the motors, also the
+///     difference between their dead zones;
 ///   - a saturation or an exponent of the forces, or a supply sag if left and right forces differ;
 ///   - ramps by which the forces rise or fall;
 ///   - forces of extra_forces.h (add_forces() in further_terms.cpp);

@@ -69,6 +69,7 @@ constexpr KindInfo kKinds[] = {
     {kSteeringScaleName, {-0.5, 0.5}},
     {kServoRateName, {0.01, 100.0}},
     {kForceImbalanceName, {-0.5, 0.5}},
+    {kDeadZoneDifferenceName, {-0.2, 0.2}},
     {kForceExponentName, {0.2, 3.0}, 0.1, Scale::kLogarithmic},
     {kForceSaturationName, {0.0, 0.95}},
     {kSaturationSharpnessName, {1.0, 20.0}, 1.0, Scale::kLogarithmic},

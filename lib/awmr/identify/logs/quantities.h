@@ -55,6 +55,9 @@ struct FreeQuantity {
     /// Force imbalance e: the forces of the left motors are 1 - e times their commands, those of
     /// the right motors 1 + e times.
     kForceImbalance,
+    /// Half of the difference D between the dead zones of the right and the left motors (commands
+    /// without force, F'): F'0 + D on the right, F'0 - D on the left.
+    kDeadZoneDifference,
     /// Exponent p of the wheel forces: the command F' gives the force |F'|^p sgn F' (times F_max).
     kForceExponent,
     /// Saturation of the wheel forces: the share L, in [0, 1), of the force that is lost at F'm,
