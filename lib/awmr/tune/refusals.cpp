@@ -135,7 +135,10 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
       fmt::format("no gains within the bounds meet every limit: the nearest of {} evaluated sets "
                   "of gains ({}) violates '{}' by {:.0f} %; {}, or increase `local_evaluations`",
                   found.evaluations, gains, found.broken_most, 100.0 * found.broken_by,
-                  is_activity ? "raise activity_max of tune.json" : advice_on(found.broken_most)));
+                  is_activity
+                      ? fmt::format("raise activity_max of tune.json to {:.4g}",
+                                    rounded_up(*requested.activity_max * (1.0 + found.broken_by)))
+                      : advice_on(found.broken_most)));
 }
 
 tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,
