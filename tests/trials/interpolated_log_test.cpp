@@ -235,6 +235,16 @@ TEST(InterpolatedReadings, DoNotFillAGapOfTheFile) {
   }
 }
 
+TEST(InterpolatedReadings, OfAColumnThatOnlyRisesAreRecovered) {
+  Signal rising = readings(10.0);
+  for (std::size_t i = 0; i < rising.t_s.size(); ++i) rising.value[i] += 2.0 * rising.t_s[i];
+  const auto read =
+      accepted(read_log, log_text(
+                             kRow_s, [](double) { return 0.2; }, between(rising), noisy(2)));
+  EXPECT_THAT(codes_of(read.findings), Contains("interpolated-readings@0"));
+  EXPECT_NEAR(static_cast<double>(fresh_count(read.set, LogChannel::kSpeed)), 595.0, 10.0);
+}
+
 TEST(InterpolatedReadings, OfTwoRatesKeepTheirRates) {
   const auto read =
       accepted(read_log, log_text(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "awmr/core/containers.h"
 #include "awmr/core/sample_quantile.h"
@@ -57,10 +58,10 @@ Readings readings_at(const LinedColumn& column, const EvenTimes& even) {
     const double at_s = even.at(std::ceil((begin_s - even.first_s) / even.step_s - 1e-9));
     const bool is_gap = end_s - begin_s > even.step_s;
     const bool is_new = readings.t_s.empty() || at_s - readings.t_s.back() > 0.5 * even.step_s;
-    if (is_gap || at_s > end_s || !is_new) continue;
-    readings.t_s.push_back(at_s);
-    readings.value.push_back(
-        value_at(column, at_s, at_s - even.step_s - slack_s, at_s + even.step_s + slack_s));
+    if (is_gap || at_s > end_s + slack_s || !is_new) continue;
+    readings.t_s.push_back(std::min(at_s, end_s));
+    readings.value.push_back(value_at(column, readings.t_s.back(), at_s - even.step_s - slack_s,
+                                      at_s + even.step_s + slack_s));
   }
   return readings;
 }
@@ -140,7 +141,7 @@ std::optional<Readings> interpolated_readings(std::span<const double> t_s,
     if (!are_evenly_spaced(column, corners)) continue;
     const LinedColumn all = lined_column(t_s, value, rounding);
     if (const auto even = even_times_of(column, corners)) {
-      const Readings readings = without_bridged_gaps(readings_at(column, *even), column.tolerance);
+      const Readings readings = without_bridged_gaps(readings_at(all, *even), column.tolerance);
       if (describe(readings, all)) return readings;
     }
     if (describe(corners, all)) return corners;
@@ -156,6 +157,7 @@ std::optional<Readings> interpolated_between(std::span<const double> readings_s,
   constexpr double kMinCount = 5.0;
   if (t_s.size() < 3 || readings_s.empty()) return std::nullopt;
   const double slack_s = 1e-3 * median_step_of(t_s);
+  const double longest_s = 1.5 * median_step_of(readings_s);
   const LinedColumn column = lined_column(t_s, value, rounding);
   double inside = 0.0;  // rows whose neighbours are between the same two readings
   double on_line = 0.0;
@@ -171,7 +173,12 @@ std::optional<Readings> interpolated_between(std::span<const double> readings_s,
       continue;
     }
     inside += 1.0;
-    if (column.is_on_line(i)) on_line += 1.0;
+    if (column.is_on_line(i)) {
+      on_line += 1.0;
+    } else if (next > 0 && next < readings_s.size() &&
+               readings_s[next] - readings_s[next - 1] > longest_s) {
+      return std::nullopt;  // a change in a gap of the other column's readings
+    }
   }
   const bool is_slower = corners < kMinCorners * spanning;  // it has fewer readings
   if (inside < kMinCount || corners < kMinCount || is_slower || on_line < kNearlyAll * inside) {
@@ -189,14 +196,11 @@ std::optional<Readings> interpolated_between(std::span<const double> readings_s,
 
 std::optional<Readings> changing_at(std::span<const double> readings_s, std::span<const double> t_s,
                                     std::span<const double> value) {
-  constexpr double kMinChanges = 10.0;
-  constexpr double kNearlyAll = 0.97;
-  if (t_s.size() < 2 || readings_s.size() < 2) return std::nullopt;
+  constexpr int kMinChanges = 10;
+  if (t_s.size() < 2 || readings_s.empty()) return std::nullopt;
   const double slack_s = 1e-3 * median_step_of(t_s);
-  const double longest_s = 1.5 * median_step_of(readings_s);
   Readings readings;
-  double changes = 0.0;
-  double after_reading = 0.0;  // changes in the first row after a reading
+  int changes = 0;
   for (std::size_t row = 1, next = 0; row < value.size(); ++row) {
     const std::size_t before = next;
     while (next < readings_s.size() && readings_s[next] <= t_s[row] + slack_s) {
@@ -204,15 +208,10 @@ std::optional<Readings> changing_at(std::span<const double> readings_s, std::spa
       readings.value.push_back(value[readings.t_s.back() > t_s[row - 1] + slack_s ? row : row - 1]);
     }
     if (value[row] == value[row - 1]) continue;
-    changes += 1.0;
-    if (next > before) {
-      after_reading += 1.0;
-    } else if (next == readings_s.size() || readings_s[next] - t_s[row] > longest_s) {
-      return std::nullopt;  // a change in a gap of the readings
-    }
+    if (next == before) return std::nullopt;  // the change is not in the first row after a reading
+    ++changes;
   }
-  if (changes < kMinChanges || after_reading < kNearlyAll * changes) return std::nullopt;
-  return readings;
+  return changes < kMinChanges ? std::nullopt : std::optional(std::move(readings));
 }
 
 double smallest_step(std::span<const double> value) {
@@ -222,10 +221,12 @@ double smallest_step(std::span<const double> value) {
   double largest = 0.0;
   for (const double one : sorted) largest = std::max(largest, std::abs(one));
   double smallest = 0.0;
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    const double step = sorted[i] - sorted[i - 1];
-    const bool is_step = step > kArithmetic * largest;
-    if (is_step && (smallest == 0.0 || step < smallest)) smallest = step;
+  const auto consider = [&](double step) {
+    if (step > kArithmetic * largest && (smallest == 0.0 || step < smallest)) smallest = step;
+  };
+  for (std::size_t i = 1; i < sorted.size(); ++i) consider(sorted[i] - sorted[i - 1]);
+  for (std::size_t i = 2; i < value.size(); ++i) {
+    consider(std::abs(value[i] - 2.0 * value[i - 1] + value[i - 2]));
   }
   return smallest;
 }

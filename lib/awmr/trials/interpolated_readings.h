@@ -21,13 +21,15 @@ namespace awmr {
 
 /// Returns the readings of a column at the ascending times `t_s`, or nothing if it is not
 /// interpolated. Criteria for interpolation:
-///   - at least 10 % more rows are on lines than the number of rows near the tolerance predicts;
+///   - the rows on lines exceed the number expected from the rows near the tolerance by at least
+///     10 % of all rows;
 ///   - rows on lines are typically off by at most the rounding or 1 % of the tolerance, other
 ///     rows by at least three tolerances;
-///   - at least 80 % of the time spans between corners are about equal, at least 1.9 rows;
+///   - at least 80 % of the time spans between corners are about equal; their median is 1.9 to 20 rows;
 ///   - at least 95 % of the rows are on the lines between the readings, which cover at least 80 %
 ///     of the time.
-/// These tests are made with all rows, with every second and with every fourth row.
+///
+/// These tests are made with all rows, and if they fail, with every second or every fourth row.
 /// `rounding`: smallest_step() of the column.
 std::optional<Readings> interpolated_readings(std::span<const double> t_s,
                                               std::span<const double> value, double rounding);
@@ -41,12 +43,13 @@ std::optional<Readings> interpolated_between(std::span<const double> readings_s,
 
 /// Returns the values at the times `readings_s` of a command that changes only in the first row
 /// after such a time: a program held each value of the slower log until the next. Nothing for other
-/// commands, for fewer than 10 changes, and for a change in a gap of the readings.
+/// commands, and for fewer than 10 changes.
 std::optional<Readings> changing_at(std::span<const double> readings_s, std::span<const double> t_s,
                                     std::span<const double> value);
 
-/// Smallest difference between two different values of a column; 0 if all are equal. For rounded
-/// values, this is the resolution of the file, in the unit of `value`.
+/// Smallest difference, above 0, between two values of a column, or between two successive changes
+/// (for a column that only rises). 0 if all values are equal. For rounded values, this is the
+/// resolution of the file, in the unit of `value`.
 double smallest_step(std::span<const double> value);
 
 /// Largest power of ten, 1 to 1e-9, of which all values are multiples: the last decimal place of

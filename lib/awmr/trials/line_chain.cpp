@@ -68,12 +68,12 @@ LinedColumn lined_column(std::span<const double> t_s, std::span<const double> va
   const std::vector<double> deviations = column.deviations();
   if (!deviations.empty()) {
     const auto [least, most] = std::ranges::minmax(value);
-    double steepest = 0.0;
+    std::vector<double> slopes;
     for (std::size_t i = 0; i + 1 < value.size(); ++i) {
-      steepest = std::max(steepest, std::abs(slope_from(column, i)));
+      slopes.push_back(std::abs(slope_from(column, i)));
     }
     column.tolerance = std::max({kSmall * quantile(deviations, 0.75), kRounding * rounding,
-                                 kTimeRounding_s * steepest,
+                                 kTimeRounding_s * quantile(std::move(slopes), 0.99),
                                  kArithmetic * std::max(std::abs(least), std::abs(most))});
   }
   return column;

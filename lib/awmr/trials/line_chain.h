@@ -44,8 +44,8 @@ bool has_lines(const LinedColumn& column);
 /// Corners of the chain of lines, and the first and the last row.
 Readings corners_of(const LinedColumn& column);
 
-/// True if at least 80 % of the time spans between the corners are about equal. They must be 1.9 to
-/// 20 rows.
+/// True if at least 80 % of the time spans between the corners are about equal, and their median is
+/// 1.9 to 20 rows.
 bool are_evenly_spaced(const LinedColumn& column, const Readings& corners);
 
 /// Value at the time of a reading, on the lines through the two rows before and the two rows after

@@ -31,30 +31,41 @@ struct Recovered {
   std::vector<CommandColumn> commands;
 };
 
-/// Returns the times that were recovered so far and between which the column is interpolated, or
-/// the column's own readings.
-std::optional<Readings> readings_of(const DrivingLog& log, const ChannelColumn& column,
-                                    const std::vector<std::optional<Readings>>& others) {
-  // A steering angle without a command is the input of the model, which is needed in every row.
+/// True if the column can be recovered: it has a value in every row. A steering angle without a
+/// command is the input of the model, which is needed in every row.
+bool is_recoverable(const DrivingLog& log, const ChannelColumn& column) {
   const bool is_input = column.channel == LogChannel::kSteering && !log.steering_command_rad;
-  if (column.present.size() != log.rows() || is_input) return std::nullopt;
+  return column.present.size() == log.rows() && !is_input;
+}
+
+/// Readings of the column at the times of another column that was recovered.
+std::optional<Readings> shared_readings(const DrivingLog& log, const ChannelColumn& column,
+                                        const std::vector<std::optional<Readings>>& others) {
+  if (!is_recoverable(log, column)) return std::nullopt;
   for (const std::optional<Readings>& other : others) {
     if (!other) continue;
     if (auto same = interpolated_between(other->t_s, log.t_s, column.value, column.rounding)) {
       return same;
     }
   }
+  return std::nullopt;
+}
+
+std::optional<Readings> own_readings(const DrivingLog& log, const ChannelColumn& column) {
+  if (!is_recoverable(log, column)) return std::nullopt;
   return interpolated_readings(log.t_s, column.value, column.rounding);
 }
 
 Recovered recovered_of(DrivingLog& log, const std::vector<ChannelColumn>& columns) {
   Recovered recovered;
   recovered.channels.resize(columns.size());
-  for (int round = 0; round < 2; ++round) {  // later columns can help earlier ones
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      std::optional<Readings>& channel = recovered.channels[i];
-      if (!channel) channel = readings_of(log, columns[i], recovered.channels);
-    }
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    recovered.channels[i] = shared_readings(log, columns[i], recovered.channels);
+    if (!recovered.channels[i]) recovered.channels[i] = own_readings(log, columns[i]);
+  }
+  for (std::size_t i = 0; i < columns.size(); ++i) {  // later columns can help earlier ones
+    std::optional<Readings>& channel = recovered.channels[i];
+    if (!channel) channel = shared_readings(log, columns[i], recovered.channels);
   }
   recovered.commands = {{"force_left", &log.force_left, 1.0},
                         {"force_right", &log.force_right, 1.0}};

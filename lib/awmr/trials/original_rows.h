@@ -23,7 +23,8 @@ struct ChannelColumn {
 ///   - an interpolated command is held from each of its values until the next; a command that was
 ///     held between the same readings changes at these, and not in the next row;
 ///   - other rows stay only if they have another measurement or a change of another command.
-/// Changes nothing in a joined log. Precondition: the log has its times and commands.
+/// A steering_deg without steering_cmd_deg stays as it is, and then all rows stay. Changes nothing
+/// in a joined log. Precondition: the log has its times and commands.
 void recover_original_rows(DrivingLog& log, std::vector<ChannelColumn>& columns,
                            std::vector<Finding>& findings);
 

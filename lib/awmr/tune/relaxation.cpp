@@ -117,7 +117,7 @@ std::vector<double> relaxed_steering_rates(const ConstraintContext& context) {
   constexpr double kMaxOfServo = 2.0;
   constexpr double kSharesOfServo[] = {0.1, 0.3, 0.9};
   const auto& rate = context.limits.steering_rate_rms_degps;
-  if (!rate || !context.steers()) return {};
+  if (!rate || !context.steers() || !std::isfinite(context.servo_rate_degps)) return {};
   std::vector<double> numbers;
   const auto add = [&](double number) {
     if (std::ceil(number) > std::max(*rate, numbers.empty() ? 0.0 : numbers.back())) {

@@ -35,8 +35,8 @@ struct RelaxedLimit {
 ///   - a limit that is stricter than its default: values up to the default
 ///   - a damping ratio: also down to half of its value or half of its default, whichever is smaller
 ///   - noise_share: also up to twice its value or twice its default, whichever is larger
-///   - the limit of the steering rate: up to 20 times its value, but at most twice the maximum rate
-///     of the servo; then up to 0.9 of this rate
+///   - the limit of the steering rate: up to 20 times its value (at most twice the maximum rate of
+///     the servo), and larger values up to 0.9 of that rate
 std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context);
 
 /// Returns changes of tune.json, as text such as "`limits/late_damping` 0.55". Each change alone

@@ -29,8 +29,8 @@ namespace awmr {
 namespace {
 
 /// Gains with which runs settle only in a longer time can be slow because of the limits of the
-/// damping. If relaxing such a limit lets the runs settle, replaces the effect of noise by the
-/// changes with which they settle.
+/// damping. If relaxing such a limit lets the runs settle, reports the changes with which they
+/// settle as the cause, in place of the noise.
 void replace_by_damping(const ObjectiveSetting& setting, const Gains<double>& gains,
                         SettlingSearch& search, UnsettledRuns& unsettled) {
   if (!(unsettled.noise->time_factor > 1.0)) return;

@@ -58,12 +58,12 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
 
 /// True for a time that cannot be distinguished from the unknown times at which commands change
 /// between rows (LogFit::change_reach_s). A common delay of all commands, or a lag of the motors,
-/// can be an error of these times up to their reach. The time of one channel relative to the others
-/// depends on them only because the fit is linear in them, by about an eighth of the row spacing.
+/// can be an error of these times up to their reach. The delay of one channel relative to the others
+/// has an error of at most about an eighth of the row spacing, because the fit is linear in them.
 bool is_within_rows(const FoundTerm& term, const LogFit& fit) {
   constexpr double kShare = 0.25;
   const Kind kind = term.quantity.kind;
-  if (kind == Kind::kDelay || kind == Kind::kMotorLag) {
+  if (kind == Kind::kDelay || (kind == Kind::kMotorLag && fit.change_reach_s > 0.0)) {
     return std::abs(term.value) < fit.change_reach_s + 2.0 * term.error;
   }
   const bool is_relative = kind == Kind::kSensorDelay || kind == Kind::kSteeringDelay;
@@ -212,8 +212,9 @@ std::string slip_text(const FoundTerm& slip, const LogFit& fit) {
           ? fmt::format("{:.1f} +- {:.1f} %", 100.0 * slip.value, 100.0 * slip.error)
           : fmt::format("{:.3f} +- {:.3f} m/s", slip.value, slip.error),
       is_implausible(slip, fit)
-          ? ". No position confirms so much slip, so all intervals are withdrawn: a sensor that is "
-            "slower at low speed (speed from the time between two encoder ticks) looks the same"
+          ? ". So much slip is doubtful without a measured position, so all intervals are "
+            "withdrawn: a sensor with a longer delay at low speed (speed from the time between two "
+            "encoder ticks) has the same effect"
           : "");
 }
 
@@ -345,10 +346,10 @@ std::string imbalance_text(const FoundTerm& imbalance, const LogFit& fit) {
 std::string dead_zones_text(const FoundTerm& half, const LogFit&) {
   const bool is_right = half.value > 0.0;
   return fmt::format(
-      "the dead zone of the {} motors, the part of a command that gives no force, is larger by "
-      "{:.3f} +- {:.2g} (F') than that of the {} motors. The fit compensates for this, but "
-      "simulations and tuned gains assume equal motors; increase the magnitude of every command to "
-      "the {} motors by this amount before it is sent, and log the commands without this increase",
+      "the dead zone of the {} motors (commands that give no force) is larger by {:.3f} +- {:.2g} "
+      "of the largest force than that of the {} motors. The fit compensates for this, but "
+      "simulations and tuned gains assume equal motors. Add this amount to the magnitude of every "
+      "nonzero command to the {} motors before it is sent, and log the commands without it",
       is_right ? "right" : "left", 2.0 * std::abs(half.value), 2.0 * half.error,
       is_right ? "left" : "right", is_right ? "right" : "left");
 }

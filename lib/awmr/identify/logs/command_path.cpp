@@ -98,14 +98,23 @@ void unbalance(double e, DelayedCommand& at) {
   force.right *= 1.0 + e;
 }
 
-/// Adds D sgn F' to the left force and subtracts it from the right one. Behind the common dead zone
-/// F'0 of the plant, the dead zones are then F'0 - D (left) and F'0 + D (right).
+/// Adds D sgn F' to the left force and subtracts it from the right one, which does not change the
+/// sign of a force. Behind the common dead zone F'0 of the plant, the dead zones are then F'0 - D
+/// (left) and F'0 + D (right).
 void shift_dead_zones(double difference, DelayedCommand& at) {
-  SideForces<double>& force = at.command.force;
-  const auto sign = [](double f) { return f == 0.0 ? 0.0 : std::copysign(1.0, f); };
-  at.by[Kind::kDeadZoneDifference].force = {sign(force.left), -sign(force.right)};
-  force.left += difference * sign(force.left);
-  force.right -= difference * sign(force.right);
+  const auto shift = [&](double SideForces<double>::*side, double by) {
+    double& force = at.command.force.*side;
+    const double sign = force == 0.0 ? 0.0 : std::copysign(1.0, force);
+    if (std::abs(force) + by * difference > 0.0) {
+      at.by[Kind::kDeadZoneDifference].force.*side = by * sign;
+      force += by * difference * sign;
+    } else {
+      scale_derivatives(0.0, side, at);
+      force = 0.0;
+    }
+  };
+  shift(&SideForces<double>::left, 1.0);
+  shift(&SideForces<double>::right, -1.0);
 }
 
 /// Replaces the steering command c by the angle to which the linkage steers, and the derivatives of

@@ -43,6 +43,11 @@ LogFitOptions with_families(LogFitOptions options, Family surge_family, Family y
   if (surge.dead_zone) free_term(options, ParameterId::kWheelDeadZone, 0.05);
   if (yaw.coulomb) free_term(options, ParameterId::kYawCoulomb, kCoulombShare * yaw_force);
   if (yaw.quadratic) free_term(options, ParameterId::kYawQuadratic, 0.0);
+  if (!options.frees(ParameterId::kWheelDeadZone)) {
+    std::erase_if(options.terms, [](const FreeTerm& term) {
+      return term.quantity.kind == FreeQuantity::Kind::kDeadZoneDifference;
+    });
+  }
   return options;
 }
 

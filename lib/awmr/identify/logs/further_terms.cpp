@@ -181,9 +181,8 @@ std::vector<FreeQuantity> all_terms() {
   for (const Kind kind :
        {Kind::kDelay, Kind::kSteeringDelay, Kind::kMotorLag, Kind::kForceRise, Kind::kForceFall,
         Kind::kSteeringTrim, Kind::kSteeringDeadBand, Kind::kSteeringAsymmetry,
-        Kind::kSteeringCurve, Kind::kForceImbalance, Kind::kDeadZoneDifference,
-        Kind::kForceExponent, Kind::kSwayOffset, Kind::kSwayAngle, Kind::kSpeedOffset,
-        Kind::kPositionAhead, Kind::kPositionLeft}) {
+        Kind::kSteeringCurve, Kind::kForceImbalance, Kind::kForceExponent, Kind::kSwayOffset,
+        Kind::kSwayAngle, Kind::kSpeedOffset, Kind::kPositionAhead, Kind::kPositionLeft}) {
     terms.push_back(free_term(kind));
   }
   for (const Kind kind : kCompassTerms) terms.push_back(free_term(kind));
@@ -268,9 +267,10 @@ std::vector<std::string> requestable_terms() {
 }
 
 std::vector<std::string> automatic_terms() {
-  std::vector<std::string> names{std::string(kServoRateName), std::string(kSteeringScaleName),
-                                 std::string(kForceSaturationName), std::string(kSupplySagName),
-                                 std::string(kSaturationSharpnessName)};
+  std::vector<std::string> names{
+      std::string(kServoRateName),          std::string(kSteeringScaleName),
+      std::string(kForceSaturationName),    std::string(kSupplySagName),
+      std::string(kDeadZoneDifferenceName), std::string(kSaturationSharpnessName)};
   for (const LogChannel channel : kChannels) {
     if (!is_often_filtered(channel)) continue;
     names.push_back(free_term(Kind::kLagDamping, channel).name());
