@@ -25,7 +25,8 @@ namespace awmr {
 ///     10 % of all rows;
 ///   - rows on lines are typically off by at most the rounding or 1 % of the tolerance, other
 ///     rows by at least three tolerances;
-///   - at least 80 % of the time spans between corners are about equal; their median is 1.9 to 20 rows;
+///   - at least 80 % of the time spans between corners are about equal; their median is 1.9 to 20
+///     rows;
 ///   - at least 95 % of the rows are on the lines between the readings, which cover at least 80 %
 ///     of the time.
 ///

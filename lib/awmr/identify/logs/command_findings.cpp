@@ -58,8 +58,9 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
 
 /// True for a time that cannot be distinguished from the unknown times at which commands change
 /// between rows (LogFit::change_reach_s). A common delay of all commands, or a lag of the motors,
-/// can be an error of these times up to their reach. The delay of one channel relative to the others
-/// has an error of at most about an eighth of the row spacing, because the fit is linear in them.
+/// can be an error of these times up to their reach. The delay of one channel relative to the
+/// others has an error of at most about an eighth of the row spacing, because the fit is linear in
+/// the unknown times.
 bool is_within_rows(const FoundTerm& term, const LogFit& fit) {
   constexpr double kShare = 0.25;
   const Kind kind = term.quantity.kind;
