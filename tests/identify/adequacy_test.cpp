@@ -95,11 +95,11 @@ LogFit fit_with_term(const FreeQuantity& quantity, double value) {
 
 TEST(WheelSlip, OfMoreThanAQuarterNeedsAPosition) {
   const FreeQuantity ratio = wheel_slip_of(LogChannel::kSpeed, true);
-  EXPECT_FALSE(has_implausible_slip(fit_with_term(ratio, 0.2)));
+  EXPECT_FALSE(has_implausible_term(fit_with_term(ratio, 0.2)));
   LogFit large = fit_with_term(ratio, 0.3);
-  EXPECT_TRUE(has_implausible_slip(large));
+  EXPECT_TRUE(has_implausible_term(large));
   large.noise[LogChannel::kX] = noise_with(0.0);
-  EXPECT_FALSE(has_implausible_slip(large));
+  EXPECT_FALSE(has_implausible_term(large));
 }
 
 /// Codes of the findings about a delay or lag of this size if commands change up to 10 ms before or

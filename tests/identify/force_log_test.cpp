@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -179,48 +180,49 @@ TEST(ForceLog, FindsTheSagOfACommonSupply) {
   }
 }
 
-/// A log of a differential vehicle with the resistances 0.6 u^0.9 and 0.075 r^0.8 (m' = 0.5 s^2/m,
-/// I'z = 0.03 s^2 m, d = 0.2 m). A PI controller of each wheel follows the logged set-points, which
-/// are fractions of 2 m/s.
-DrivingLog log_of_set_points() {
-  constexpr double kStepOfLoop_s = 0.001;
-  constexpr double kHalfTrack_m = 0.2;
+/// Differential robot with the resistances 0.6 u^0.9 and 0.075 r^0.8 (m' = 0.5 s^2/m, I'z = 0.03
+/// s^2 m, d = 0.2 m).
+struct DifferentialRobot {
+  static constexpr double kHalfTrack_m = 0.2;
+  static constexpr double kLoop_s = 0.001;
+  double u_mps = 0.0;
+  double r_radps = 0.0;
+
+  /// Moves for kLoop_s with the force of one of the two wheels on each side (Euler's method).
+  void move(const SideForces<double>& force) {
+    const double surge = 0.6 * std::copysign(std::pow(std::abs(u_mps), 0.9), u_mps);
+    const double yaw = 0.075 * std::copysign(std::pow(std::abs(r_radps), 0.8), r_radps);
+    u_mps += kLoop_s * (2.0 * (force.left + force.right) - surge) / 0.5;
+    r_radps += kLoop_s * (2.0 * kHalfTrack_m * (force.right - force.left) - yaw) / 0.03;
+  }
+};
+
+using Commands = std::function<SideForces<double>(Random&)>;
+using WheelForce =
+    std::function<SideForces<double>(const SideForces<double>& command, const DifferentialRobot&)>;
+
+/// Log of the robot of 40 s at 50 Hz. The command changes every `rows_held` rows; the measurements
+/// have noise of the standard deviation `noise_std` (m/s, rad/s).
+DrivingLog differential_log(Random random, int rows_held, double noise_std,
+                            const Commands& next_command, const WheelForce& force_of) {
   constexpr int kStepsOfRow = 20;
   constexpr int kRows = 2000;
-  constexpr int kRowsHeld = 100;
-  Random random(3, 1);
   DrivingLog log;
   Measured speed;
   Measured yaw_rate;
-  double u_mps = 0.0;
-  double r_radps = 0.0;
-  SideForces<double> wanted{};
-  SideForces<double> sum{};
+  DifferentialRobot robot;
+  SideForces<double> command{};
   for (int row = 0; row < kRows; ++row) {
-    if (row % kRowsHeld == 0) {
-      const double mean = 0.1 + 0.6 * random.uniform();
-      const double turn = 0.2 * (random.uniform() - 0.5);
-      wanted = {mean - turn, mean + turn};
-    }
-    log.t_s.push_back(row * kStepsOfRow * kStepOfLoop_s);
+    if (row % rows_held == 0) command = next_command(random);
+    log.t_s.push_back(row * kStepsOfRow * DifferentialRobot::kLoop_s);
     log.line.push_back(row + 2);
-    log.force_left.push_back(wanted.left);
-    log.force_right.push_back(wanted.right);
-    speed.value.push_back(u_mps + 0.01 * random.normal());
-    yaw_rate.value.push_back(r_radps + 0.01 * random.normal());
-    for (int step = 0; step < kStepsOfRow; ++step) {
-      const double left = 2.0 * wanted.left - (u_mps - kHalfTrack_m * r_radps);
-      const double right = 2.0 * wanted.right - (u_mps + kHalfTrack_m * r_radps);
-      sum.left += left * kStepOfLoop_s;
-      sum.right += right * kStepOfLoop_s;
-      const SideForces<double> force{1.5 * left + 3.0 * sum.left, 1.5 * right + 3.0 * sum.right};
-      const double surge = 0.6 * std::copysign(std::pow(std::abs(u_mps), 0.9), u_mps);
-      const double yaw = 0.075 * std::copysign(std::pow(std::abs(r_radps), 0.8), r_radps);
-      u_mps += kStepOfLoop_s * (2.0 * (force.left + force.right) - surge) / 0.5;
-      r_radps += kStepOfLoop_s * (2.0 * kHalfTrack_m * (force.right - force.left) - yaw) / 0.03;
-    }
+    log.force_left.push_back(command.left);
+    log.force_right.push_back(command.right);
+    speed.value.push_back(robot.u_mps + noise_std * random.normal());
+    yaw_rate.value.push_back(robot.r_radps + noise_std * random.normal());
+    for (int step = 0; step < kStepsOfRow; ++step) robot.move(force_of(command, robot));
   }
-  log.file = "set_points.csv";
+  log.file = "differential.csv";
   log.steering_command_rad = std::vector<double>(log.rows(), 0.0);
   for (Measured* const channel : {&speed, &yaw_rate}) {
     channel->fresh.assign(log.rows(), true);
@@ -231,76 +233,63 @@ DrivingLog log_of_set_points() {
   return log;
 }
 
-TEST(ForceLog, NamesSetPointsOfASpeedController) {
+/// The vehicle file of the robot.
+Vehicle differential_robot() {
   Vehicle vehicle = robot();
   vehicle.drive = Drive::kDifferential;
-  vehicle.half_track_m = 0.2;
+  vehicle.half_track_m = DifferentialRobot::kHalfTrack_m;
+  return vehicle;
+}
+
+/// A PI controller of each wheel follows the logged set-points, which are fractions of 2 m/s.
+DrivingLog log_of_set_points() {
+  const auto set_point = [](Random& random) {
+    const double mean = 0.1 + 0.6 * random.uniform();
+    const double turn = 0.2 * (random.uniform() - 0.5);
+    return SideForces<double>{mean - turn, mean + turn};
+  };
+  SideForces<double> sum{};
+  const auto controlled = [&sum](const SideForces<double>& wanted, const DifferentialRobot& at) {
+    const double turn_mps = DifferentialRobot::kHalfTrack_m * at.r_radps;
+    const double left = 2.0 * wanted.left - (at.u_mps - turn_mps);
+    const double right = 2.0 * wanted.right - (at.u_mps + turn_mps);
+    sum.left += left * DifferentialRobot::kLoop_s;
+    sum.right += right * DifferentialRobot::kLoop_s;
+    return SideForces<double>{1.5 * left + 3.0 * sum.left, 1.5 * right + 3.0 * sum.right};
+  };
+  return differential_log(Random(3, 1), 100, 0.01, set_point, controlled);
+}
+
+TEST(ForceLog, NamesSetPointsOfASpeedController) {
   TrialData data;
   data.logs = {log_of_set_points()};
-  const auto result = identify(vehicle, data, power_law(), {});
+  const auto result = identify(differential_robot(), data, power_law(), {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "speed-controlled", "2 m/s"));
   EXPECT_FALSE(result->model[ParameterId::kMassNorm].ci95);
 }
 
-/// Log of a differential robot (m' = 0.5 s^2/m, I'z = 0.03 s^2 m, g1 = 0.6 u^0.9, g3 = 0.075 r^0.8,
-/// half track 0.2 m) whose motors have the dead zones 0.05 (left) and 0.09 (right).
+/// The motors have the dead zones 0.05 (left) and 0.09 (right).
 DrivingLog log_of_unequal_dead_zones() {
-  constexpr int kRows = 2000;
-  constexpr int kStepsOfRow = 20;
-  constexpr double kEulerStep_s = 0.001;
-  constexpr double kHalfTrack_m = 0.2;
-  Random random(3, 7);
-  DrivingLog log;
-  Measured speed;
-  Measured yaw_rate;
-  SideForces<double> command{0.0, 0.0};
-  double u_mps = 0.0;
-  double r_radps = 0.0;
-  const auto beyond = [](double f, double zone) {
-    return std::abs(f) > zone ? f - std::copysign(zone, f) : 0.0;
+  const auto command = [](Random& random) {
+    const double mean = 0.5 * random.uniform() - 0.1;
+    const double half = 0.3 * (random.uniform() - 0.5);
+    return SideForces<double>{mean - half, mean + half};
   };
-  const auto power = [](double a, double v, double b) {
-    return a * std::copysign(std::pow(std::abs(v), b), v);
+  const auto beyond = [](double force, double zone) {
+    return std::abs(force) > zone ? force - std::copysign(zone, force) : 0.0;
   };
-  for (int row = 0; row < kRows; ++row) {
-    if (row % 35 == 0) {
-      const double mean = 0.5 * random.uniform() - 0.1;
-      const double half = 0.3 * (random.uniform() - 0.5);
-      command = {mean - half, mean + half};
-    }
-    log.t_s.push_back(row * kStepsOfRow * kEulerStep_s);
-    log.line.push_back(row + 2);
-    log.force_left.push_back(command.left);
-    log.force_right.push_back(command.right);
-    speed.value.push_back(u_mps + 0.005 * random.normal());
-    yaw_rate.value.push_back(r_radps + 0.005 * random.normal());
-    const double left = beyond(command.left, 0.05);
-    const double right = beyond(command.right, 0.09);
-    for (int step = 0; step < kStepsOfRow; ++step) {
-      u_mps += kEulerStep_s * (2.0 * (left + right) - power(0.6, u_mps, 0.9)) / 0.5;
-      r_radps +=
-          kEulerStep_s * (2.0 * kHalfTrack_m * (right - left) - power(0.075, r_radps, 0.8)) / 0.03;
-    }
-  }
-  log.file = "dead_zones.csv";
-  log.steering_command_rad = std::vector<double>(log.rows(), 0.0);
-  for (Measured* const channel : {&speed, &yaw_rate}) {
-    channel->fresh.assign(log.rows(), true);
-    channel->fresh_count = kRows;
-  }
-  log[LogChannel::kSpeed] = std::move(speed);
-  log[LogChannel::kYawRate] = std::move(yaw_rate);
-  return log;
+  return differential_log(
+      Random(3, 7), 35, 0.005, command,
+      [&](const SideForces<double>& at, const DifferentialRobot&) {
+        return SideForces<double>{beyond(at.left, 0.05), beyond(at.right, 0.09)};
+      });
 }
 
 TEST(ForceLog, FindsUnequalDeadZonesOfTheMotors) {
-  Vehicle vehicle = robot();
-  vehicle.drive = Drive::kDifferential;
-  vehicle.half_track_m = 0.2;
   TrialData data;
   data.logs = {log_of_unequal_dead_zones()};
-  const auto result = identify(vehicle, data, {}, {});
+  const auto result = identify(differential_robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "unequal-dead-zones"));
   EXPECT_FALSE(has_finding(*result, "force-imbalance"));

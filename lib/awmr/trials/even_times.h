@@ -1,9 +1,12 @@
-/// Times of evenly spaced rows or readings. Private to this folder.
+/// Spacing of rows or readings in time. Private to this folder.
 #pragma once
 
 #include <span>
 
 namespace awmr {
+
+/// Median of the steps between successive times.
+double median_step_of(std::span<const double> t_s);
 
 /// The times t_n = t_0 + n h.
 struct EvenTimes {

@@ -71,11 +71,7 @@ Readings readings_at(const LinedColumn& column, const EvenTimes& even) {
 Readings without_bridged_gaps(const Readings& all, double tolerance) {
   constexpr std::size_t kMaxSpans = 3;
   const auto is_on_line = [&](std::size_t k) {
-    const double before_s = all.t_s[k] - all.t_s[k - 1];
-    const double after_s = all.t_s[k + 1] - all.t_s[k];
-    const double chord =
-        (all.value[k - 1] * after_s + all.value[k + 1] * before_s) / (before_s + after_s);
-    return std::abs(all.value[k] - chord) <= 2.0 * tolerance;
+    return off_chord(all.t_s, all.value, k) <= 2.0 * tolerance;
   };
   Readings kept;
   const auto keep = [&](std::size_t k) {
@@ -123,6 +119,19 @@ bool describe(const Readings& readings, const LinedColumn& column) {
   }
   const double covered_s = static_cast<double>(readings.t_s.size()) * usual_s;
   return on_line >= kNearlyAll * rows && covered_s >= kMinCovered * duration_s;
+}
+
+/// value_at() for the times of all readings. `slack_s`: tolerance of these times.
+Readings values_at(const LinedColumn& column, std::span<const double> readings_s, double slack_s) {
+  Readings readings;
+  for (std::size_t k = 0; k < readings_s.size(); ++k) {
+    const double previous_s = k > 0 ? readings_s[k - 1] - slack_s : column.t_s.front();
+    const double next_s =
+        k + 1 < readings_s.size() ? readings_s[k + 1] + slack_s : column.t_s.back();
+    readings.t_s.push_back(readings_s[k]);
+    readings.value.push_back(value_at(column, readings_s[k], previous_s, next_s));
+  }
+  return readings;
 }
 
 }  // namespace
@@ -184,14 +193,7 @@ std::optional<Readings> interpolated_between(std::span<const double> readings_s,
   if (inside < kMinCount || corners < kMinCount || is_slower || on_line < kNearlyAll * inside) {
     return std::nullopt;
   }
-  Readings readings;
-  for (std::size_t k = 0; k < readings_s.size(); ++k) {
-    const double previous_s = k > 0 ? readings_s[k - 1] - slack_s : t_s.front();
-    const double next_s = k + 1 < readings_s.size() ? readings_s[k + 1] + slack_s : t_s.back();
-    readings.t_s.push_back(readings_s[k]);
-    readings.value.push_back(value_at(column, readings_s[k], previous_s, next_s));
-  }
-  return readings;
+  return values_at(column, readings_s, slack_s);
 }
 
 std::optional<Readings> changing_at(std::span<const double> readings_s, std::span<const double> t_s,

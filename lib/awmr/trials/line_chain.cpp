@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "awmr/core/sample_quantile.h"
+#include "even_times.h"
 
 namespace awmr {
 namespace {
@@ -49,16 +50,21 @@ void add_corners(const LinedColumn& column, std::size_t end, std::size_t begin, 
 
 }  // namespace
 
+double off_chord(std::span<const double> t_s, std::span<const double> value, std::size_t row) {
+  const double before_s = t_s[row] - t_s[row - 1];
+  const double after_s = t_s[row + 1] - t_s[row];
+  const double chord =
+      (value[row - 1] * after_s + value[row + 1] * before_s) / (before_s + after_s);
+  return std::abs(value[row] - chord);
+}
+
 LinedColumn lined_column(std::span<const double> t_s, std::span<const double> value,
                          double rounding) {
   LinedColumn column{
       t_s, value,   std::vector<double>(value.size(), 0.0), std::vector<bool>(value.size(), false),
       0.0, rounding};
   for (std::size_t i = 1; i + 1 < value.size(); ++i) {
-    const double before_s = t_s[i] - t_s[i - 1];
-    const double after_s = t_s[i + 1] - t_s[i];
-    const double chord = (value[i - 1] * after_s + value[i + 1] * before_s) / (before_s + after_s);
-    column.off_chord[i] = std::abs(value[i] - chord);
+    column.off_chord[i] = off_chord(t_s, value, i);
     column.is_flat[i] = value[i] == value[i - 1] && value[i] == value[i + 1];
   }
   constexpr double kSmall = 0.02;
@@ -117,12 +123,6 @@ Readings corners_of(const LinedColumn& column) {
     corners.value.push_back(column.value.back());
   }
   return corners;
-}
-
-double median_step_of(std::span<const double> t_s) {
-  std::vector<double> gaps_s;
-  for (std::size_t i = 1; i < t_s.size(); ++i) gaps_s.push_back(t_s[i] - t_s[i - 1]);
-  return median(std::move(gaps_s));
 }
 
 bool are_evenly_spaced(const LinedColumn& column, const Readings& corners) {

@@ -34,6 +34,9 @@ struct LinedColumn {
   }
 };
 
+/// |e_i|: distance of row i from the chord through its neighbours. Not for the first and last row.
+double off_chord(std::span<const double> t_s, std::span<const double> value, std::size_t row);
+
 /// `rounding`: resolution of the values; 0 if unknown.
 LinedColumn lined_column(std::span<const double> t_s, std::span<const double> value,
                          double rounding);
@@ -51,8 +54,5 @@ bool are_evenly_spaced(const LinedColumn& column, const Readings& corners);
 /// Value at the time of a reading, on the lines through the two rows before and the two rows after
 /// it, if these rows are within the neighbouring readings.
 double value_at(const LinedColumn& column, double at_s, double previous_s, double next_s);
-
-/// Median of the steps between successive times.
-double median_step_of(std::span<const double> t_s);
 
 }  // namespace awmr

@@ -16,6 +16,7 @@
 #include "awmr/trials/trial_columns.h"
 #include "constant_channels.h"
 #include "course_at_rest.h"
+#include "even_times.h"
 #include "interpolated_readings.h"
 #include "log_channels.h"
 #include "original_rows.h"
@@ -231,9 +232,9 @@ const ChannelInfo& info(LogChannel channel) {
 }
 
 double DrivingLog::median_step_s() const {
+  if (!joined) return median_step_of(t_s);
   std::vector<double> steps;
   for (std::size_t i = 1; i < t_s.size(); ++i) steps.push_back(t_s[i] - t_s[i - 1]);
-  if (!joined) return median(std::move(steps));
   // The rows of two signals with about the same rate come in close pairs. The short steps within
   // the pairs hardly change this median, because each step is weighted with its length.
   std::sort(steps.begin(), steps.end());
@@ -344,7 +345,7 @@ std::vector<ChannelColumn> columns_in(TrialReader& reader, RowSpan rows, Driving
     if (!reader.has(about.column) || std::ranges::count(unmeasured, channel) > 0) continue;
     ChannelColumn column{channel, values_of(reader, rows, about.column, about.to_si),
                          rows_present(reader, rows, about.column)};
-    column.rounding = smallest_step(column.value);
+    if (!log.joined) column.rounding = smallest_step(column.value);
     if (channel == LogChannel::kHeading) {
       if (!speed_mps.empty()) {
         set_aside_course_at_rest(log, speed_mps, column.value, column.present, findings);

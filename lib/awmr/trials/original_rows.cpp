@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "awmr/core/containers.h"
+#include "even_times.h"
 #include "interpolated_readings.h"
 
 namespace awmr {
@@ -25,9 +26,13 @@ struct CommandColumn {
   bool is_interpolated = false;           ///< false: held between these times
 };
 
-/// Readings of the interpolated columns of a log. Columns of the same message share their times.
+/// Readings of the interpolated channels of a log, in the order of its columns. Columns of the same
+/// message share their times.
+using ChannelReadings = std::vector<std::optional<Readings>>;
+
+/// Readings of the interpolated columns of a log.
 struct Recovered {
-  std::vector<std::optional<Readings>> channels;  ///< in the order of the columns
+  ChannelReadings channels;
   std::vector<CommandColumn> commands;
 };
 
@@ -40,7 +45,7 @@ bool is_recoverable(const DrivingLog& log, const ChannelColumn& column) {
 
 /// Readings of the column at the times of another column that was recovered.
 std::optional<Readings> shared_readings(const DrivingLog& log, const ChannelColumn& column,
-                                        const std::vector<std::optional<Readings>>& others) {
+                                        const ChannelReadings& others) {
   if (!is_recoverable(log, column)) return std::nullopt;
   for (const std::optional<Readings>& other : others) {
     if (!other) continue;
@@ -56,28 +61,31 @@ std::optional<Readings> own_readings(const DrivingLog& log, const ChannelColumn&
   return interpolated_readings(log.t_s, column.value, column.rounding);
 }
 
-Recovered recovered_of(DrivingLog& log, const std::vector<ChannelColumn>& columns) {
-  Recovered recovered;
-  recovered.channels.resize(columns.size());
+ChannelReadings recovered_channels(const DrivingLog& log,
+                                   const std::vector<ChannelColumn>& columns) {
+  ChannelReadings channels(columns.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    recovered.channels[i] = shared_readings(log, columns[i], recovered.channels);
-    if (!recovered.channels[i]) recovered.channels[i] = own_readings(log, columns[i]);
+    channels[i] = shared_readings(log, columns[i], channels);
+    if (!channels[i]) channels[i] = own_readings(log, columns[i]);
   }
   for (std::size_t i = 0; i < columns.size(); ++i) {  // later columns can help earlier ones
-    std::optional<Readings>& channel = recovered.channels[i];
-    if (!channel) channel = shared_readings(log, columns[i], recovered.channels);
+    if (!channels[i]) channels[i] = shared_readings(log, columns[i], channels);
   }
-  recovered.commands = {{"force_left", &log.force_left, 1.0},
-                        {"force_right", &log.force_right, 1.0}};
+  return channels;
+}
+
+std::vector<CommandColumn> recovered_commands(DrivingLog& log, const ChannelReadings& channels) {
+  std::vector<CommandColumn> commands{{"force_left", &log.force_left, 1.0},
+                                      {"force_right", &log.force_right, 1.0}};
   if (log.steering_command_rad) {
-    recovered.commands.push_back(
+    commands.push_back(
         {"steering_cmd_deg", &*log.steering_command_rad, info(LogChannel::kSteering).to_si});
   }
-  for (CommandColumn& command : recovered.commands) {
+  for (CommandColumn& command : commands) {
     std::vector<double> in_file = *command.value;
     for (double& one : in_file) one /= command.to_si;
     const double rounding = printed_resolution(in_file) * command.to_si;
-    for (const std::optional<Readings>& channel : recovered.channels) {
+    for (const std::optional<Readings>& channel : channels) {
       if (!channel || command.readings) continue;
       command.readings = interpolated_between(channel->t_s, log.t_s, *command.value, rounding);
       command.is_interpolated = command.readings.has_value();
@@ -86,7 +94,7 @@ Recovered recovered_of(DrivingLog& log, const std::vector<ChannelColumn>& column
       }
     }
   }
-  return recovered;
+  return commands;
 }
 
 /// Times of the new rows, s, ascending. Times closer than `same_s` are one row.
@@ -175,10 +183,11 @@ Finding note_of(const DrivingLog& log, const std::vector<ChannelColumn>& columns
 void recover_original_rows(DrivingLog& log, std::vector<ChannelColumn>& columns,
                            std::vector<Finding>& findings) {
   if (log.joined) return;
-  Recovered recovered = recovered_of(log, columns);
+  Recovered recovered{recovered_channels(log, columns), {}};
   if (std::ranges::none_of(recovered.channels, [](const auto& one) { return one.has_value(); })) {
     return;
   }
+  recovered.commands = recovered_commands(log, recovered.channels);
   findings.push_back(note_of(log, columns, recovered));
   const double same_s = 1e-3 * log.median_step_s();
   const std::vector<double> t_s = times_of_rows(log, columns, recovered, same_s);

@@ -14,7 +14,7 @@ struct ChannelColumn {
   LogChannel channel;
   std::vector<double> value;         ///< by row, SI
   std::vector<std::size_t> present;  ///< rows in which the file has a value
-  double rounding = 0.0;             ///< smallest_step() of the column, SI
+  double rounding = 0.0;             ///< smallest_step(), SI; not set in joined logs
 };
 
 /// If `columns` or commands of the log are interpolated (interpolated_readings.h), changes log and

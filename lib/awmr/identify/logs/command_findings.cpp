@@ -399,9 +399,8 @@ std::string sag_text(const FoundTerm& loss, const LogFit& fit) {
       "if both sides have the largest command of the logs, {:.3g}, the wheels push {:.1f} +- "
       "{:.1f} % less than in proportion to small commands, and the command of each side reduces "
       "the force of the other: the voltage of the common battery drops. The fit compensates for "
-      "this{}, but "
-      "simulations and tuned gains assume proportional forces. Use a battery with less internal "
-      "resistance, or divide the commands by the measured voltage",
+      "this{}, but simulations and tuned gains assume proportional forces. Use a battery with less "
+      "internal resistance, or divide the commands by the measured voltage",
       loss.quantity.full_command, 100.0 * loss.value, 100.0 * loss.error, without_intervals(fit));
 }
 
@@ -448,15 +447,13 @@ constexpr TermFinding kTermFindings[] = {
 
 }  // namespace
 
-bool has_implausible_imbalance(const LogFit& fit) {
-  return std::ranges::any_of(found_terms(fit, Kind::kForceImbalance), [](const FoundTerm& term) {
-    return std::abs(term.value) > kLargestMotorDifference;
-  });
-}
-
-bool has_implausible_slip(const LogFit& fit) {
-  return std::ranges::any_of(found_terms(fit, Kind::kWheelSlip),
-                             [&](const FoundTerm& slip) { return is_implausible(slip, fit); });
+bool has_implausible_term(const LogFit& fit) {
+  const auto is_of_wheel = [](const FoundTerm& imbalance) {
+    return std::abs(imbalance.value) > kLargestMotorDifference;
+  };
+  const auto is_of_sensor = [&](const FoundTerm& slip) { return is_implausible(slip, fit); };
+  return std::ranges::any_of(found_terms(fit, Kind::kForceImbalance), is_of_wheel) ||
+         std::ranges::any_of(found_terms(fit, Kind::kWheelSlip), is_of_sensor);
 }
 
 bool saturates_much(const LogFit& fit) {

@@ -211,6 +211,25 @@ void add_ramps(const std::vector<FreeQuantity>& quantities, std::vector<FreeQuan
   }
 }
 
+/// Errors of the forces that the motors make.
+void add_motors(const LogProblem& problem, std::vector<FreeQuantity>& found) {
+  const std::vector<FreeQuantity>& quantities = problem.model.quantities;
+  const bool has_difference = any_log(problem, has_force_difference);
+  add_term(problem, Kind::kForceImbalance, has_difference, found);
+  add_term(problem, Kind::kDeadZoneDifference,
+           has_difference && has(quantities, ParameterId::kWheelDeadZone), found);
+  const double full_command = largest_command(problem);
+  if (full_command > 0.0) add_ramps(quantities, found);
+  // A fit contains only one of an exponent, a saturation and a supply sag of the forces. Together
+  // they could fit every curve, even one with wrong forces at small commands.
+  if (full_command > 0.0 && !has(quantities, Kind::kForceExponent) &&
+      !has(quantities, Kind::kForceSaturation) && !has(quantities, Kind::kSupplySag)) {
+    found.push_back(free_term(Kind::kForceExponent));
+    found.push_back(force_saturation(full_command));
+    if (has_difference) found.push_back(supply_sag(full_command));
+  }
+}
+
 }  // namespace
 
 bool is_often_filtered(LogChannel channel) {
@@ -227,20 +246,7 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   add_term(problem, Kind::kSteeringDelay, has(quantities, ParameterId::kSteeringTimeConstant),
            found);
   add_steering(problem, found);
-  const bool has_difference = any_log(problem, has_force_difference);
-  add_term(problem, Kind::kForceImbalance, has_difference, found);
-  add_term(problem, Kind::kDeadZoneDifference,
-           has_difference && has(quantities, ParameterId::kWheelDeadZone), found);
-  const double full_command = largest_command(problem);
-  if (full_command > 0.0) add_ramps(quantities, found);
-  // A fit contains only one of an exponent, a saturation and a supply sag of the forces. Together
-  // they could fit every curve, even one with wrong forces at small commands.
-  if (full_command > 0.0 && !has(quantities, Kind::kForceExponent) &&
-      !has(quantities, Kind::kForceSaturation) && !has(quantities, Kind::kSupplySag)) {
-    found.push_back(free_term(Kind::kForceExponent));
-    found.push_back(force_saturation(full_command));
-    if (has_difference) found.push_back(supply_sag(full_command));
-  }
+  add_motors(problem, found);
   add_forces(problem, found);
   add_scales(problem, found);
   add_slip(problem, found);

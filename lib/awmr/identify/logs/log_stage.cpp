@@ -331,10 +331,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
     stage.withdraws_intervals = true;
     stage.findings.push_back(impossible_servo_finding(logs.front().file));
   }
-  if (chosen.fit.usable &&
-      (has_implausible_imbalance(chosen.fit) || has_implausible_slip(chosen.fit))) {
-    stage.withdraws_intervals = true;
-  }
+  if (chosen.fit.usable && has_implausible_term(chosen.fit)) stage.withdraws_intervals = true;
   show_step(options, "comparing the logs with each other");
   const bool has_changed = report_change(logs, power_law, chosen, stage);
   if (!has_changed) compare_parts(logs, chosen, stage);

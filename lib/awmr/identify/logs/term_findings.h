@@ -50,16 +50,15 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
 /// small commands wrong, and with it all other values.
 bool saturates_much(const LogFit& fit);
 
-/// True if left and right forces of the fit differ from their mean by more than 25 %, which is more
-/// than real motors do. Another error then probably acts like an imbalance, and the intervals are
-/// not valid. For example, the speed column may be the speed of one wheel, u - d r or u + d r (d:
-/// half of the track width, r: yaw rate).
-bool has_implausible_imbalance(const LogFit& fit);
-
-/// True if the slip ratio of the wheels that measure the speed or the yaw rate exceeds a quarter at
-/// the largest force, and no position confirms it. A sensor that reacts late at low speed has the
-/// same effect as slip.
-bool has_implausible_slip(const LogFit& fit);
+/// True if a term of the fit is so large that another error probably acts like it. The intervals
+/// are then not valid. Such terms are:
+///   - left and right forces that differ from their mean by more than 25 %, which is more than real
+///     motors do. For example, the speed column may be the speed of one wheel, u - d r or u + d r
+///     (d: half of the track width, r: yaw rate);
+///   - a slip ratio above a quarter at the largest force of the wheels that measure the speed or
+///     the yaw rate, if no position confirms it. A sensor that reacts late at low speed has the
+///     same effect as slip.
+bool has_implausible_term(const LogFit& fit);
 
 /// Withdraws the intervals of a resistance whose Stribeck friction is above 5 % of its Coulomb
 /// friction. All terms of this resistance depend on how the friction decreases with speed, and the
