@@ -692,22 +692,35 @@ TEST(LateLog, EstimatesTheTimesOfCommandsThatChangeBetweenRows) {
 }
 
 /// A controller at 100 Hz and a log at 50 Hz: half of the commands change at a row, the others in
-/// the middle between two rows.
-TEST(LateLog, FindsThatHalfOfTheCommandsChangeBetweenRows) {
+/// the middle between two rows. The speed is measured in every `rows_per_speed`-th row.
+void expect_finds_half_of_changes_between_rows(std::size_t rows_per_speed) {
   const Truth& t = kTruths[1];
   Plant<double> slow_servo = plant(t);
   slow_servo.steering_time_constant_s = 0.15;
   DrivingLog fast = smooth_commands(0.01, 60.0);
   hold_commands(fast, 131);
+  DrivingLog log = measured_rows(fast, slow_servo, 2);
+  Measured& speed = *log[LogChannel::kSpeed];
+  for (std::size_t i = 0; i < speed.fresh.size(); ++i) speed.fresh[i] = i % rows_per_speed == 0;
+  speed.fresh_count = static_cast<int>(std::ranges::count(speed.fresh, true));
   TrialData data;
-  data.logs = {measured_rows(fast, slow_servo, 2)};
+  data.logs = {std::move(log)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "changes-between-rows"));
   EXPECT_FALSE(has_finding(*result, "late-commands"));
+  EXPECT_FALSE(has_finding(*result, "side-pull"));
   expect_recovered(*result, ParameterId::kYawAlpha, t.a3, 3.0);
   expect_recovered(*result, ParameterId::kYawBeta, t.b3, 3.0);
   expect_recovered(*result, ParameterId::kSteeringTimeConstant, 0.15, 3.0);
+}
+
+TEST(LateLog, FindsThatHalfOfTheCommandsChangeBetweenRows) {
+  expect_finds_half_of_changes_between_rows(1);
+}
+
+TEST(LateLog, FindsChangesBetweenRowsAlthoughTheSpeedIsSlow) {
+  expect_finds_half_of_changes_between_rows(10);
 }
 
 /// Rows every 0.1 s: the servo's time constant is 0.06 s, so that the unknown times of the commands

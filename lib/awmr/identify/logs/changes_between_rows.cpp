@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "awmr/core/containers.h"
 #include "awmr/core/index.h"
@@ -19,6 +21,11 @@
 namespace awmr {
 namespace {
 
+/// Decrease of -2 ln L from which unknown times of the changes are used. It is smaller than the
+/// threshold of the families: if the commands do change at their rows, unknown times make the
+/// intervals wider, but not wrong.
+constexpr double kLikelier = 6.0;
+
 Finding changes_between_rows_finding(const std::string& file) {
   return {file, 0, Severity::kNote, "changes-between-rows",
           "the commands change between the rows, and the log shows only samples of them; the fit "
@@ -26,52 +33,108 @@ Finding changes_between_rows_finding(const std::string& file) {
           "when it is sent"};
 }
 
-/// Result that one Gauss-Newton step of all coordinates and initial states predicts: the cost, and
-/// the times at which commands change.
-struct Predicted {
-  double squares = 0.0;              ///< twice the predicted cost
-  std::vector<double> change_times;  ///< WindowErrors::change_times
+/// -2 ln L of a fit near a point x, as a function of steps d of its coordinates. The optimal initial
+/// states of the windows are already inserted:
+///
+///     -2 ln L(x + d) = constant + 2 S^T d + d^T (H + prior) d        (H, S: FitEvidence)
+struct Quadratic {
+  FitEvidence evidence;  ///< H + prior, S
+  double constant = 0.0;
 };
 
-/// Predicts the result of a Gauss-Newton step from the sums of all windows. `prior`: information of
-/// the weak prior of each coordinate.
-Predicted predicted(const std::vector<WindowSums>& sums, const Eigen::VectorXd& prior) {
+/// `prior`: information of the weak prior of each coordinate.
+Quadratic quadratic(const std::vector<WindowSums>& sums, const Eigen::VectorXd& prior) {
   const Eigen::Index n = prior.size();
-  const FitEvidence evidence = fit_evidence(sums, n);
-  Eigen::MatrixXd information = evidence.information;
-  information.diagonal() += prior;
-  const Eigen::VectorXd change = -solve_ldlt(information, evidence.score);
-  Predicted result{.squares = evidence.score.dot(change), .change_times = {}};
+  Quadratic result{fit_evidence(sums, n), 0.0};
+  result.evidence.information.diagonal() += prior;
   for (const WindowSums& window : sums) {
     const Eigen::Index k = window.products.rows() - 1 - n;
-    const Eigen::MatrixXd of_initial = window.products.block(n, n, k, k);
     const Eigen::VectorXd gradient = window.products.block(n, n + k, k, 1);
-    result.squares += window.products(n + k, n + k) -
-                      gradient.dot(Eigen::VectorXd(solve_ldlt(of_initial, gradient)));
-    if (window.change_times.size() == 0) continue;
-    // Steps of the coordinates and of the initial state, then -1. This -1 multiplies the last
-    // column of WindowSums::change_times, the times before the step.
-    Eigen::VectorXd all(n + k + 1);
-    all << change, -solve_ldlt(of_initial, gradient + window.products.block(n, 0, k, n) * change),
-        -1.0;
-    const Eigen::VectorXd times = -window.change_times * all;
-    append(result.change_times, times);
+    result.constant +=
+        window.products(n + k, n + k) -
+        gradient.dot(Eigen::VectorXd(solve_ldlt(window.products.block(n, n, k, k), gradient)));
   }
   return result;
 }
 
+/// Minimum of a Quadratic over some of the coordinates. The others do not change.
+struct Minimum {
+  double aic;            ///< -2 ln L at the minimum, plus 2 for each free coordinate
+  Eigen::VectorXd step;  ///< step of every coordinate
+};
+
+Minimum minimum(const Quadratic& of, const std::vector<Eigen::Index>& free) {
+  const Eigen::VectorXd score = of.evidence.score(free);
+  const Eigen::VectorXd change = -solve_ldlt(of.evidence.information(free, free), score);
+  Minimum result{.aic = of.constant + score.dot(change) + 2.0 * static_cast<double>(free.size()),
+                 .step = Eigen::VectorXd::Zero(of.evidence.score.size())};
+  result.step(free) = change;
+  return result;
+}
+
+/// Minimum over the first `always` coordinates and those of the others that lower AIC by more than
+/// kTermAicThreshold, added one after the other, the best first.
+Minimum minimum_with_terms(const Quadratic& of, const std::vector<FreeQuantity>& quantities,
+                           std::size_t always) {
+  std::vector<Eigen::Index> free;
+  for (std::size_t i = 0; i < always; ++i) free.push_back(eigen_index(i));
+  Minimum best = minimum(of, free);
+  for (bool is_improved = true; is_improved;) {
+    const double before = best.aic;
+    std::optional<Eigen::Index> added;
+    for (std::size_t i = always; i < quantities.size(); ++i) {
+      const Eigen::Index candidate = eigen_index(i);
+      if (contains(free, candidate)) continue;
+      free.push_back(candidate);
+      Minimum with = minimum(of, free);
+      free.pop_back();
+      const bool is_possible = with.step(candidate) > 0.0 || !quantities[i].may_be_zero();
+      if (!is_possible || !(before - with.aic > kTermAicThreshold) || !(with.aic < best.aic))
+        continue;
+      best = std::move(with);
+      added = candidate;
+    }
+    is_improved = added.has_value();
+    if (added) free.push_back(*added);
+  }
+  return best;
+}
+
+/// Times of the changes after the step `step` of the coordinates (WindowErrors::change_times).
+std::vector<double> change_times_after(const std::vector<WindowSums>& sums,
+                                       const Eigen::VectorXd& step) {
+  const Eigen::Index n = step.size();
+  std::vector<double> times;
+  for (const WindowSums& window : sums) {
+    if (window.change_times.size() == 0) continue;
+    const Eigen::Index k = window.products.rows() - 1 - n;
+    const Eigen::VectorXd gradient =
+        window.products.block(n, n + k, k, 1) + window.products.block(n, 0, k, n) * step;
+    // Steps of the coordinates and of the initial state, then -1. This -1 multiplies the last
+    // column of WindowSums::change_times, the times before the step.
+    Eigen::VectorXd all(n + k + 1);
+    all << step, -solve_ldlt(window.products.block(n, n, k, k), gradient), -1.0;
+    append(times, Eigen::VectorXd(-window.change_times * all));
+  }
+  return times;
+}
+
 struct UncertainTimes {
-  /// Decrease of -2 ln L if the times of the changes are uncertain; 0 if no command changes.
+  /// Decrease of AIC if the times of the changes are uncertain; 0 if no command changes.
   double lead = 0.0;
   std::vector<double> standardised;  ///< WindowErrors::change_times
 };
 
-/// Compares uncertain times of the changes with changes at the rows. `more`: free quantities in
-/// addition to those of the problem.
+/// Compares uncertain times of the changes with changes at the rows. In both cases, the quantities
+/// of the problem and `always` are free, and those of `optional` that lower AIC
+/// (minimum_with_terms()).
 UncertainTimes uncertain_times(const LogProblem& problem, const SearchPoint& point,
-                               const std::vector<FreeQuantity>& more) {
+                               std::vector<FreeQuantity> always,
+                               const std::vector<FreeQuantity>& optional) {
+  const std::size_t n_always = problem.model.quantities.size() + always.size();
+  append(always, optional);
   Extended with =
-      extended(with_white_noise(problem), point, more, std::vector<double>(more.size(), 0.0));
+      extended(with_white_noise(problem), point, always, std::vector<double>(always.size(), 0.0));
   bool any = false;
   for (FitWindow& window : with.problem.windows) {
     if (window.changes.empty()) window.changes = changes_before_rows(window.rows);
@@ -86,16 +149,16 @@ UncertainTimes uncertain_times(const LogProblem& problem, const SearchPoint& poi
     const double std = kPriorStd * quantities[at(i)].large_change;
     prior(i) = 1.0 / (std * std);
   }
-  const Predicted between = predicted(sums, prior);
-  double lead = -between.squares;
+  const Minimum between = minimum_with_terms(quadratic(sums, prior), quantities, n_always);
+  const std::vector<double> times = change_times_after(sums, between.step);
+  double lead = -between.aic;
   for (WindowSums& window : sums) {
     lead -= window.change_cost;
     if (window.products_at_known_times.size() == 0) continue;
     window.products = window.products_at_known_times;
-    window.change_times.resize(0, 0);
   }
-  lead += predicted(sums, prior).squares;
-  return {lead, between.change_times};
+  lead += minimum_with_terms(quadratic(sums, prior), quantities, n_always).aic;
+  return {lead, times};
 }
 
 /// Options of a fit with unknown times of the changes. The fit begins at the stopped fit `at_rows`,
@@ -128,18 +191,19 @@ LogFitOptions options_from(const FamilyFit& at_rows, const LogFitOptions& power_
 bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& point,
                               const std::vector<ParameterId>& candidate_terms) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
-  std::vector<FreeQuantity> delays;  // a quick test first
+  std::vector<FreeQuantity> delays;
   for (const auto kind : {FreeQuantity::Kind::kDelay, FreeQuantity::Kind::kSteeringDelay}) {
     if (!has(quantities, kind)) delays.push_back(free_term(kind));
   }
-  constexpr double kClearly = 20.0;
-  if (!(uncertain_times(problem, point, delays).lead > kClearly)) return false;
-  std::vector<FreeQuantity> more = further_terms(problem);
-  std::erase_if(more, [](const FreeQuantity& q) { return q.is_ramp(); });
+  // A quick test first.
+  if (!(uncertain_times(problem, point, delays, {}).lead > kLikelier)) return false;
+  std::vector<FreeQuantity> optional = further_terms(problem);
+  std::erase_if(optional,
+                [&](const FreeQuantity& q) { return q.is_ramp() || has(delays, q.kind); });
   for (const ParameterId term : candidate_terms) {
-    if (!place_of(quantities, term)) more.push_back(free_parameter(term));
+    if (!place_of(quantities, term)) optional.push_back(free_parameter(term));
   }
-  const UncertainTimes times = uncertain_times(problem, point, more);
+  const UncertainTimes times = uncertain_times(problem, point, delays, optional);
   return times.lead > 0.0 && are_times_between_rows(times.standardised);
 }
 
@@ -176,7 +240,7 @@ FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
   between.fit.options.effort = power_law.effort;
   if (!from.effort->is_over() && between.fit.fit.usable &&
       are_times_between_rows(between.fit.fit.change_times) &&
-      aic_lead(between.fit.fit, at_rows.fit) > kFamilyAicThreshold) {
+      aic_lead(between.fit.fit, at_rows.fit) > kLikelier) {
     between.findings.push_back(changes_between_rows_finding(logs.front().file));
     return between;
   }

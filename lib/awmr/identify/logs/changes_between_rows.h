@@ -11,12 +11,12 @@
 namespace awmr {
 
 /// True if the commands possibly change between rows. Compares two assumptions: every change
-/// happened at an unknown time before its row (changes_before_rows()), or exactly at its row. With
-/// unknown times, -2 ln L (integrated over the times) has to be lower by more than 20; with all
-/// terms of further_terms() except ramps free in both cases, it has to be lower at all. (A delay or
-/// lag can look like such changes.) The likeliest times also have to pass are_times_between_rows().
-/// `point`: solution of `problem`. `candidate_terms`: further free parameters
-/// (LogFitOptions::candidate_terms).
+/// happened at an unknown time before its row (changes_before_rows()), or exactly at its row. AIC
+/// (integrated over the times) has to be lower with unknown times: by more than 6 if only the
+/// delays are free in addition, and at all if each assumption also has those further terms, except
+/// ramps, that lower its AIC by more than kTermAicThreshold. (A delay or lag can look like such
+/// changes.) The likeliest times also have to pass are_times_between_rows(). `point`: solution of
+/// `problem`. `candidate_terms`: further free parameters (LogFitOptions::candidate_terms).
 bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& point,
                               const std::vector<ParameterId>& candidate_terms);
 
@@ -35,7 +35,7 @@ struct FirstFit {
 
 /// Makes the first fit. If the commands probably change between the rows, first fits the logs with
 /// unknown times of the changes. Uses this fit if its times pass are_times_between_rows() and its
-/// AIC is lower by more than kFamilyAicThreshold than with changes at the rows and the same terms.
+/// AIC is lower by more than 6 than with changes at the rows and the same terms.
 FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const IdentifyOptions& options);
 

@@ -10,6 +10,7 @@
 
 #include "awmr/identify/logs/log_report.h"
 #include "awmr/identify/logs/log_setup.h"
+#include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
 namespace {
@@ -114,7 +115,6 @@ double lead_of(const LogFit& a, const LogFit& b) {
 }  // namespace
 
 std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFit& chosen) {
-  constexpr double kPlainly = 10.0;  // difference of AIC above which the logs decide
   if (!chosen.fit.usable || !reads_early(chosen.fit)) return std::nullopt;
   LogFitOptions options = from_optimum(chosen.options, chosen);
   std::vector<FamilyFit> others;
@@ -128,7 +128,7 @@ std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFi
   std::vector<std::string> names;
   const FamilyFit* closest = nullptr;
   for (const FamilyFit& other : others) {
-    if (!(lead_of(chosen.fit, other.fit) < kPlainly)) continue;
+    if (!(lead_of(chosen.fit, other.fit) < kTermAicThreshold)) continue;
     for (std::string& name : withdraw_different(other.fit.report, chosen.fit.report)) {
       names.push_back(std::move(name));
       closest = &other;
@@ -138,14 +138,15 @@ std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFi
   const double lead = lead_of(chosen.fit, closest->fit);
   return Finding{
       logs.front().file, 0, Severity::kWarning, "wheel-slip",
-      fmt::format("these logs do not decide between two causes, {} and {}: the AIC of the fit with "
-                  "the first cause, which is used, is {} {:.1f}{}, so the intervals of {} are "
-                  "withdrawn. Log each command when it is sent, and measure the speed without "
-                  "driven wheels (optical flow, GNSS, a free wheel)",
-                  explanation(chosen), explanation(*closest),
-                  lead < 0.0 ? "higher by" : "lower by only", std::abs(lead),
-                  aic_lead(chosen.fit, closest->fit) < kPlainly ? "" : " without a few rows",
-                  fmt::join(names, ", "))};
+      fmt::format(
+          "these logs do not decide between two causes, {} and {}: the AIC of the fit with "
+          "the first cause, which is used, is {} {:.1f}{}, so the intervals of {} are "
+          "withdrawn. Log each command when it is sent, and measure the speed without "
+          "driven wheels (optical flow, GNSS, a free wheel)",
+          explanation(chosen), explanation(*closest), lead < 0.0 ? "higher by" : "lower by only",
+          std::abs(lead),
+          aic_lead(chosen.fit, closest->fit) < kTermAicThreshold ? "" : " without a few rows",
+          fmt::join(names, ", "))};
 }
 
 }  // namespace awmr

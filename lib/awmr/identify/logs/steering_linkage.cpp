@@ -13,6 +13,7 @@
 #include "awmr/identify/logs/score_test.h"
 #include "awmr/identify/logs/term_trials.h"
 #include "awmr/identify/logs/widening.h"
+#include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
 namespace {
@@ -100,7 +101,6 @@ std::optional<NoiseIteration> with_other_stop(const NoiseIteration& settled) {
 }
 
 std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFit& chosen) {
-  constexpr double kPlainly = 10.0;  // difference of AIC above which the logs decide
   if (!chosen.fit.usable || !has_linkage_error(chosen.fit.quantities)) return std::nullopt;
   LogFitOptions options = from_optimum(chosen.options, chosen);
   const LogProblem problem = log_problem(logs, options);
@@ -111,7 +111,7 @@ std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFi
   if (!other.fit.usable) return std::nullopt;
   if (aic_lead(other.fit, chosen.fit) > 0.0) std::swap(other, chosen);
   const double lead = aic_lead(chosen.fit, other.fit);
-  if (!(lead < kPlainly)) return std::nullopt;
+  if (!(lead < kTermAicThreshold)) return std::nullopt;
   const std::vector<std::string> names = withdraw_different(other.fit.report, chosen.fit.report);
   if (names.empty()) return std::nullopt;
   return Finding{

@@ -8,6 +8,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/units.h"
+#include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
 namespace {
@@ -92,9 +93,8 @@ NoiseIteration start_of_trials(NoiseIteration settled) {
 }
 
 std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, Extended from) {
-  constexpr double kPlainly = 10.0;
   NoiseIteration fit = settle_noise(std::move(from.problem), std::move(from.point));
-  if (!(akaike_of(settled) - akaike_of(fit) > kPlainly)) return std::nullopt;
+  if (!(akaike_of(settled) - akaike_of(fit) > kTermAicThreshold)) return std::nullopt;
   return fit;
 }
 
