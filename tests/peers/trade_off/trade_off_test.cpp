@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "peers/trade_off/tuned_case.h"
 #include "tune/vehicles.h"
@@ -25,57 +26,80 @@ double distance_of(const LawGains& a, const LawGains& b) {
   return most;
 }
 
-TEST_P(TradeOff, TunedGainsAreOnTheIndependentFront) {
-  const Model model = testing::model_of(GetParam());
-  const auto scenarios = default_tuning_scenarios(model, {});
-  ASSERT_TRUE(scenarios) << to_text(scenarios.error());
+/// Results of one search by `tune` and one by the independent program, on the same vehicle.
+struct Compared {
+  LawGains tuned_gains;
+  Means tuned, front, baseline;  ///< on bodies that no search used
+  double took_s;                 ///< run time of `tune`
+
+  double off_the_front() const { return tuned.settling_s / front.settling_s - 1.0; }
+};
+
+/// `seed`: of the search by `tune` and of the independent search.
+Compared compared(const testing::TestVehicle& vehicle, std::uint64_t seed) {
+  const Model model = testing::model_of(vehicle);
+  const auto scenarios = default_tuning_scenarios(model, {}).value();
   TuneOptions options;
+  options.seed = seed;
   options.one_set = true;
   options.evaluation_draws = 0;
   options.adds_observer = false;  // the independent simulator has no observer
   const auto start = std::chrono::steady_clock::now();
-  const Result<Tuning> tuning = tune(model, options);
+  const Tuning tuning = tune(model, options).value();
   const double took_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  ASSERT_TRUE(tuning) << to_text(tuning.error());
-  const Case one = case_of(model, *scenarios, tuning->limits, tuning->examined, 16);
-  const LawGains tuned = law_gains(tuning->gains);
-  const LawGains baseline = law_gains(tuning->baseline.gains.common());
+  const Case one = case_of(model, scenarios, tuning.limits, tuning.examined, 16);
+  const LawGains tuned = law_gains(tuning.gains);
+  const LawGains baseline = law_gains(tuning.baseline.gains.common());
 
   // `tune` checks the limits for the model's own vehicle, so the independent implementation must
   // confirm them. The two computations of the steering rate agree to 1e-4.
-  const Controls controls{one.model, tuned};
-  const auto excess_over = [&](const std::vector<Body>& bodies) {
-    return excess(controls, one.vehicle, one.errors, bodies, one.limits, one.examined);
-  };
-  EXPECT_LT(excess_over({}), 1e-3);
+  EXPECT_LT(excess({one.model, tuned}, one.vehicle, one.errors, {}, one.limits, one.examined),
+            1e-3);
   EXPECT_GT(distance_of(tuned, baseline), 0.01) << "a copy of the baseline";
 
-  // The front is searched on eight drawn bodies, and the results are compared on 24 others. A
+  // The front is searched on eight drawn bodies, and the results are compared on 240 others. A
   // vehicle with one mode has three times as many bodies, so that means are over the same number of
   // runs.
   const int more = 3 / static_cast<int>(one.modes.size());
   const std::vector<Trial> searched = with_noise(one, drawn_bodies(model, 8 * more, 5), 11);
-  const std::vector<Trial> fresh = with_noise(one, drawn_bodies(model, 24 * more, 6), 12);
-  const Means known = means_of(one, searched, controls);
+  const std::vector<Trial> fresh = with_noise(one, drawn_bodies(model, 240 * more, 6), 12);
+  const Means known = means_of(one, searched, {one.model, tuned});
   constexpr double kOvershootThatMatters_deg = 0.5;
   constexpr double kMoreSpeedError = 1.1;  // a smaller difference does not matter
   Means most = known;
   most.speed_itae_ms *= kMoreSpeedError;
   most.overshoot_deg = std::max(known.overshoot_deg, kOvershootThatMatters_deg);
-  const LawGains best = least_settling(one, searched, tuned, FedForward::kMeasured, most);
-  const Means of_tuned = means_of(one, fresh, controls);
-  const Means of_best = means_of(one, fresh, {one.model, best});
-  const Means of_baseline = means_of(one, fresh, {one.model, baseline});
-  EXPECT_LT(of_tuned.settling_s, 1.05 * of_best.settling_s);
-  fmt::print(
-      "| {} | {:.1f} | {:.3g}, {:.3g} | {:.3f} / {:.3f} / {:.3f} | {:.2f} / {:.2f} / {:.2f} | "
-      "{:.2f} / {:.2f} / {:.2f} | {:+.1f} % | {:.1f} % |\n",
-      GetParam().name, took_s, tuned.lambda, tuned.mu / tuned.epsilon, of_tuned.settling_s,
-      of_best.settling_s, of_baseline.settling_s, of_tuned.variation, of_best.variation,
-      of_baseline.variation, of_tuned.overshoot_deg, of_best.overshoot_deg,
-      of_baseline.overshoot_deg, 100.0 * (of_tuned.settling_s / of_best.settling_s - 1.0),
-      100.0 * std::max(0.0, excess_over(one.limit_bodies)));
+  const LawGains front =
+      least_settling(one, searched, tuned, FedForward::kMeasured, most, {.seed = seed});
+  return {.tuned_gains = tuned,
+          .tuned = means_of(one, fresh, {one.model, tuned}),
+          .front = means_of(one, fresh, {one.model, front}),
+          .baseline = means_of(one, fresh, {one.model, baseline}),
+          .took_s = took_s};
+}
+
+/// The distance from the front differs between seeds by up to 5 %, because both searches end near
+/// their optimum. Therefore its mean over three seeds is tested.
+TEST_P(TradeOff, TunedGainsAreOnTheIndependentFront) {
+  constexpr std::uint64_t kSeeds = 3;
+  std::vector<double> off;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Compared one = compared(GetParam(), seed);
+    off.push_back(one.off_the_front());
+    if (seed > 1) continue;
+    fmt::print(
+        "| {} | {:.1f} | {:.3g}, {:.3g} | {:.3f} / {:.3f} / {:.3f} | {:.2f} / {:.2f} / {:.2f} | "
+        "{:.2f} / {:.2f} / {:.2f} |",
+        GetParam().name, one.took_s, one.tuned_gains.lambda,
+        one.tuned_gains.mu / one.tuned_gains.epsilon, one.tuned.settling_s, one.front.settling_s,
+        one.baseline.settling_s, one.tuned.variation, one.front.variation, one.baseline.variation,
+        one.tuned.overshoot_deg, one.front.overshoot_deg, one.baseline.overshoot_deg);
+  }
+  const double mean = std::accumulate(off.begin(), off.end(), 0.0) / kSeeds;
+  fmt::print(" {:+.1f} % ({:+.1f}, {:+.1f}, {:+.1f}) |\n", 100.0 * mean, 100.0 * off[0],
+             100.0 * off[1], 100.0 * off[2]);
+  EXPECT_LT(mean, 0.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(FromToyToTractor, TradeOff, ::testing::ValuesIn(testing::test_vehicles()));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -57,6 +58,13 @@ Quadratic quadratic(const std::vector<WindowSums>& sums, const Eigen::VectorXd& 
   return result;
 }
 
+/// The indices 0 to `count` - 1.
+std::vector<Eigen::Index> first_indices(std::size_t count) {
+  std::vector<Eigen::Index> indices(count);
+  std::iota(indices.begin(), indices.end(), Eigen::Index{0});
+  return indices;
+}
+
 /// Minimum of a Quadratic over some of the coordinates. The others do not change.
 struct Minimum {
   double aic;            ///< -2 ln L at the minimum, plus 2 for each free coordinate
@@ -76,12 +84,11 @@ Minimum minimum(const Quadratic& of, const std::vector<Eigen::Index>& free) {
 /// kTermAicThreshold, added one after the other, the best first.
 Minimum minimum_with_terms(const Quadratic& of, const std::vector<FreeQuantity>& quantities,
                            std::size_t always) {
-  std::vector<Eigen::Index> free;
-  for (std::size_t i = 0; i < always; ++i) free.push_back(eigen_index(i));
+  std::vector<Eigen::Index> free = first_indices(always);
   Minimum best = minimum(of, free);
-  for (bool is_improved = true; is_improved;) {
-    const double before = best.aic;
-    std::optional<Eigen::Index> added;
+  while (true) {
+    std::optional<Minimum> better;
+    Eigen::Index added = 0;
     for (std::size_t i = always; i < quantities.size(); ++i) {
       const Eigen::Index candidate = eigen_index(i);
       if (contains(free, candidate)) continue;
@@ -89,15 +96,15 @@ Minimum minimum_with_terms(const Quadratic& of, const std::vector<FreeQuantity>&
       Minimum with = minimum(of, free);
       free.pop_back();
       const bool is_possible = with.step(candidate) > 0.0 || !quantities[i].may_be_zero();
-      if (!is_possible || !(before - with.aic > kTermAicThreshold) || !(with.aic < best.aic))
-        continue;
-      best = std::move(with);
+      if (!is_possible) continue;
+      if (!(with.aic < (better ? better->aic : best.aic - kTermAicThreshold))) continue;
+      better = std::move(with);
       added = candidate;
     }
-    is_improved = added.has_value();
-    if (added) free.push_back(*added);
+    if (!better) return best;
+    best = *std::move(better);
+    free.push_back(added);
   }
-  return best;
 }
 
 /// Times of the changes after the step `step` of the coordinates (WindowErrors::change_times).
@@ -122,7 +129,8 @@ std::vector<double> change_times_after(const std::vector<WindowSums>& sums,
 struct UncertainTimes {
   /// Decrease of AIC if the times of the changes are uncertain; 0 if no command changes.
   double lead = 0.0;
-  std::vector<double> standardised;  ///< WindowErrors::change_times
+  /// WindowErrors::change_times at the minimum over all coordinates.
+  std::vector<double> standardised;
 };
 
 /// Compares uncertain times of the changes with changes at the rows. In both cases, the quantities
@@ -149,9 +157,10 @@ UncertainTimes uncertain_times(const LogProblem& problem, const SearchPoint& poi
     const double std = kPriorStd * quantities[at(i)].large_change;
     prior(i) = 1.0 / (std * std);
   }
-  const Minimum between = minimum_with_terms(quadratic(sums, prior), quantities, n_always);
-  const std::vector<double> times = change_times_after(sums, between.step);
-  double lead = -between.aic;
+  const Quadratic between = quadratic(sums, prior);
+  const std::vector<double> times =
+      change_times_after(sums, minimum(between, first_indices(quantities.size())).step);
+  double lead = -minimum_with_terms(between, quantities, n_always).aic;
   for (WindowSums& window : sums) {
     lead -= window.change_cost;
     if (window.products_at_known_times.size() == 0) continue;
