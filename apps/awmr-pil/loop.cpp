@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "awmr/emit/board/arming.h"
 #include "awmr/simulate/physics.h"
@@ -112,17 +113,86 @@ void fail_actuators(Injection injection, LoopRow& row) {
   if (injection == Injection::kServoReversed) row.steering_command_rad *= -1.0;
 }
 
-/// Simulates the vehicle over one sample, with the forces and the steering angle of `row`.
-Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) {
-  physics.step(row.t_s, row.force, row.steering_command_rad);
-  if (physics.resolved()) return {};
-  return input_error(
-      ErrorCode::kDiverges, fmt::format("scenario '{}'", scenario),
-      fmt::format("the simulation cannot continue after {:g} s: the resistance is too stiff for "
-                  "the shortest integration step, or a value is not finite. Check the model and "
-                  "the gains",
-                  row.t_s));
-}
+/// A failure of a sensor or of the operator's line, which must disarm the vehicle, and the board's
+/// arming that does so.
+class DisarmingFailure {
+ public:
+  explicit DisarmingFailure(const LoopSetup& setup)
+      : is_of_commands_(is_command_failure(setup.injection)),
+        sensors_(setup.injection, setup.sample_time_s, setup.gps_limits),
+        commands_(setup.injection) {
+    arming_.arm(kFaultNone, kSensorGood);
+  }
+
+  /// Changes the input of step `k`, with the failure if `fails`. `before`: the row of the previous
+  /// step; null in the first step. Returns the sensor check that detects a failure.
+  SensorFault step(std::size_t k, bool fails, const LoopRow* before, AutopilotInput& input) {
+    SensorFault cause = kSensorGood;
+    if (is_of_commands_) {
+      commands_.step(fails, arming_, input.times);
+    } else {
+      const Commanded commanded =
+          before && arming_.is_armed()
+              ? Commanded{before->step.output.tau_turn_m, before->step.output.psi_ref_rad}
+              : Commanded{0.0F, input.reference.psi_rad};
+      cause = sensors_.step(k, fails, commanded, input);
+    }
+    if (!arming_.is_armed()) input.times.command_ms -= kSilence_ms;
+    return cause;
+  }
+
+  void observe(const LoopRow& row) { arming_.observe(row.step.output.fault, row.cause); }
+
+ private:
+  bool is_of_commands_;
+  CheckedSensors sensors_;
+  CheckedCommands commands_;
+  Arming arming_;
+};
+
+/// The vehicle, its sensors and its guidance in double, from sample to sample.
+class SimulatedDrive {
+ public:
+  explicit SimulatedDrive(const LoopSetup& setup)
+      : setup_(setup),
+        physics_(setup.plant, setup.force_max, setup.scenario,
+                 {.sample_time_s = setup.sample_time_s}),
+        sensing_(setup.scenario.sensors, setup.sample_time_s, run_seed(setup.scenario.seed, 0, 0)),
+        positioning_(setup.scenario, setup.sample_time_s),
+        guidance_(setup.scenario, setup.sample_time_s) {}
+
+  /// Measures the state of sample `k` at the time `row.t_s`, and stores it in `row`. Returns the
+  /// chip's input.
+  AutopilotInput measure(std::size_t k, LoopRow& row) {
+    row.state = physics_.state();
+    const Sensed sensed = sensing_.at(k, row.state);
+    Sensed located = sensed;  // with the estimated position, for the guidance
+    located.position_m = positioning_.step(row.t_s, sensed);
+    guided_ = guidance_.step(row.t_s, located);
+    return input_of(setup_, row.t_s, sensed, guided_);
+  }
+  bool has_no_passage() const { return guided_.no_passage; }
+
+  /// Moves the vehicle over one sample, with the forces and the steering angle of `row`.
+  Status move(const LoopRow& row) {
+    physics_.step(row.t_s, row.force, row.steering_command_rad);
+    if (physics_.resolved()) return {};
+    return input_error(
+        ErrorCode::kDiverges, fmt::format("scenario '{}'", setup_.scenario.name),
+        fmt::format("the simulation cannot continue after {:g} s: the resistance is too stiff for "
+                    "the shortest integration step, or a value is not finite. Check the model and "
+                    "the gains",
+                    row.t_s));
+  }
+
+ private:
+  const LoopSetup& setup_;
+  Physics physics_;
+  Sensing sensing_;
+  Positioning positioning_;
+  ScenarioGuidance guidance_;
+  GuidanceOutput guided_;
+};
 
 }  // namespace
 
@@ -170,64 +240,37 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
 
 Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor,
                                       const Progress& progress) {
-  const SimulateOptions options{.sample_time_s = setup.sample_time_s};
-  Physics physics(setup.plant, setup.force_max, setup.scenario, options);
-  Sensing sensing(setup.scenario.sensors, setup.sample_time_s, run_seed(setup.scenario.seed, 0, 0));
-  Positioning positioning(setup.scenario, setup.sample_time_s);
-  Sensed sensed = sensing.at(0, physics.state());
-  // Copy of the sensed values, with the estimated position; the host's guidance in double uses it.
-  Sensed located = sensed;
-  located.position_m = positioning.step(0.0, sensed);
-  ScenarioGuidance guidance(setup.scenario, setup.sample_time_s);
+  SimulatedDrive drive(setup);
   if (!setup.mission.points.points_m.empty()) {
     AWMR_RETURN_IF_ERROR(executor.follow(setup.mission.points));
   }
   const std::size_t samples = samples_in(setup.scenario.duration_s, setup.sample_time_s);
   const Window window = injection_window(setup.injection, setup.middle, samples);
-  const bool is_checked = disarms(setup.injection);
-  CheckedSensors checked(setup.injection, setup.sample_time_s, setup.gps_limits);
-  CheckedCommands commands(setup.injection);
-  Arming arming;
-  arming.arm(kFaultNone, kSensorGood);
+  std::optional<DisarmingFailure> failure;
+  if (disarms(setup.injection)) failure.emplace(setup);
   std::vector<LoopRow> rows;
   for (std::size_t k = 0; k <= samples; ++k) {
-    LoopRow& row = rows.emplace_back();
+    LoopRow row;
     row.t_s = static_cast<double>(k) * setup.sample_time_s;
-    row.state = physics.state();
-    if (k > 0) {
-      located = sensed = sensing.at(k, row.state);
-      located.position_m = positioning.step(row.t_s, sensed);
-    }
-    const GuidanceOutput output = guidance.step(row.t_s, located);
-    AutopilotInput input = input_of(setup, row.t_s, sensed, output);
-    if (is_checked) {
-      const bool fails = k >= window.first;
-      if (is_command_failure(setup.injection)) {
-        commands.step(fails, arming, input.times);
-      } else {
-        const Commanded before =
-            rows.size() > 1 && arming.is_armed()
-                ? Commanded{rows[k - 1].step.output.tau_turn_m, rows[k - 1].step.output.psi_ref_rad}
-                : Commanded{0.0F, input.reference.psi_rad};
-        row.cause = checked.step(k, fails, before, input);
-      }
-      if (!arming.is_armed()) input.times.command_ms -= kSilence_ms;
-    } else if (k >= window.first && k < window.last) {
+    const bool has_begun = k >= window.first;
+    AutopilotInput input = drive.measure(k, row);
+    if (failure) {
+      row.cause = failure->step(k, has_begun, rows.empty() ? nullptr : &rows.back(), input);
+    } else if (has_begun && k < window.last) {
       inject(setup.injection, input);
     }
-    if (setup.injection == Injection::kStepLate && k >= window.first) delay(10'000, input.times);
+    if (setup.injection == Injection::kStepLate && has_begun) delay(10'000, input.times);
     if (std::binary_search(setup.resets.begin(), setup.resets.end(), k)) {
       AWMR_RETURN_IF_ERROR(executor.reset());
     }
-    auto step = executor.step(input);
-    if (!step) return tl::unexpected(step.error());
-    row.step = *step;
-    if (is_checked) arming.observe(step->output.fault, row.cause);
+    AWMR_ASSIGN_OR_RETURN(row.step, executor.step(input));
+    if (failure) failure->observe(row);
     command(setup, row);
-    if (k >= window.first) fail_actuators(setup.injection, row);
+    if (has_begun) fail_actuators(setup.injection, row);
+    rows.push_back(row);
     if (progress) progress(k, samples);
-    if (step->output.arrived || output.no_passage || k == samples) break;
-    AWMR_RETURN_IF_ERROR(drive(physics, row, setup.scenario.name));
+    if (row.step.output.arrived || drive.has_no_passage() || k == samples) break;
+    AWMR_RETURN_IF_ERROR(drive.move(row));
   }
   return rows;
 }

@@ -283,6 +283,27 @@ void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogSt
   if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
 }
 
+/// Decides whether all intervals are withdrawn, because a term of the fit has a value that no
+/// vehicle has, or because the logs contain set-points of a speed controller.
+void judge_terms(const FamilyFit& chosen, const std::optional<SpeedControl>& speed_control,
+                 const std::string& file, LogStage& stage) {
+  if (speed_control && speed_control->withdraws) stage.withdraws_intervals = true;
+  if (chosen.fit.usable && has_implausible_term(chosen.fit)) stage.withdraws_intervals = true;
+  if (chosen.fit.usable && has_impossible_servo(chosen.fit)) {
+    stage.withdraws_intervals = true;
+    stage.findings.push_back(impossible_servo_finding(file));
+  }
+}
+
+/// Withdraws or widens intervals of the report of `chosen`.
+void withdraw_or_widen(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogStage& stage) {
+  withdraw_by_stribeck(chosen.fit);
+  widen_by_steering_scale(logs, chosen);
+  if (const auto open = widen_by_gyro_scale(logs, chosen)) stage.findings.push_back(*open);
+  if (is_much_curved(chosen.fit)) withdraw_intervals(chosen.fit.report, "yaw.");
+  if (stage.withdraws_intervals) withdraw_intervals(chosen.fit.report);
+}
+
 struct ReadAgain {
   std::vector<DrivingLog> logs;
   Finding finding;
@@ -326,20 +347,11 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   }
   FamilyFit chosen = fit_families(logs, power_law, options, std::move(first), stage);
   const auto speed_control = find_speed_control(vehicle, logs, chosen);
-  if (speed_control && speed_control->withdraws) stage.withdraws_intervals = true;
-  if (chosen.fit.usable && has_impossible_servo(chosen.fit)) {
-    stage.withdraws_intervals = true;
-    stage.findings.push_back(impossible_servo_finding(logs.front().file));
-  }
-  if (chosen.fit.usable && has_implausible_term(chosen.fit)) stage.withdraws_intervals = true;
+  judge_terms(chosen, speed_control, logs.front().file, stage);
   show_step(options, "comparing the logs with each other");
   const bool has_changed = report_change(logs, power_law, chosen, stage);
   if (!has_changed) compare_parts(logs, chosen, stage);
-  withdraw_by_stribeck(chosen.fit);
-  widen_by_steering_scale(logs, chosen);
-  if (const auto open = widen_by_gyro_scale(logs, chosen)) stage.findings.push_back(*open);
-  if (is_much_curved(chosen.fit)) withdraw_intervals(chosen.fit.report, "yaw.");
-  if (stage.withdraws_intervals) withdraw_intervals(chosen.fit.report);
+  withdraw_or_widen(logs, chosen, stage);
   stage.reports[stage.chosen_report] = chosen.fit.report;
   const std::string& file = logs.front().file;
   if (!chosen.fit.usable) {
