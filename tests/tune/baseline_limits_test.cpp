@@ -1,5 +1,5 @@
 /// Limits that the baseline gains do not meet, and the finding about the objective above theirs.
-#include "awmr/tune/baseline_limits.h"
+#include "awmr/tune/tuning_steps.h"
 
 #include <gmock/gmock.h>
 

@@ -663,7 +663,9 @@ double growth(const SampledHeadingLoop& loop) {
     double psi, r, servo, motor;
   };
   Motion x{1.0, 0.5, -0.3, 0.2};
-  std::vector<Motion> readings(static_cast<std::size_t>(loop.latency_samples) + 1, x);
+  const auto late_samples =
+      static_cast<std::size_t>(std::lround(loop.command_delay_s / loop.sample_time_s));
+  std::vector<Motion> readings(late_samples + 1, x);
   constexpr int kSamples = 4000;
   constexpr int kSteps = 200;
   const double h = loop.sample_time_s / kSteps;
@@ -720,7 +722,7 @@ TEST(SampledLoop, IsStableExactlyWhereItsLateMotionDecays) {
                                         .sample_time_s = 0.01,
                                         .direct_share = share,
                                         .motor_time_constant_s = late == 2 ? 0.05 : 0.01,
-                                        .latency_samples = late};
+                                        .command_delay_s = 0.01 * late};
           EXPECT_EQ(damping_ratio(loop) > 0.0, growth(loop) < 1.0)
               << known.input_gain << " " << late << " " << share << " " << k;
         }
@@ -744,7 +746,7 @@ TEST(SampledLoop, IsStableExactlyWhereItsMotionUnderAnObserverDecays) {
                                         .direct_share = share,
                                         .motor_time_constant_s = 0.01,
                                         .observer_radps = observer_radps,
-                                        .latency_samples = late};
+                                        .command_delay_s = 0.01 * late};
           EXPECT_EQ(damping_ratio(loop) > 0.0, growth(loop) < 1.0)
               << late << " " << share << " " << k << " " << observer_radps;
           unstable += damping_ratio(loop) > 0.0 ? 0 : 1;
@@ -914,7 +916,7 @@ TEST(Constraints, RequireDampingWithLatency) {
                          .servo_time_constant_s = 0.02,
                          .sample_time_s = 0.01,
                          .direct_share = share,
-                         .latency_samples = 5}));
+                         .command_delay_s = 0.05}));
     }
   }
   EXPECT_NEAR(named(late, "delay margin").value, worst, 1e-9);

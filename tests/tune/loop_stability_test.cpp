@@ -62,7 +62,7 @@ TEST(SpeedLoop, IsStableExactlyWhereItsLateMotionDecays) {
     for (const double a : {0.5, 5.0, 50.0}) {
       for (const double k : {0.5, 2.0, 5.0, 20.0, 80.0}) {
         SampledHeadingLoop loop = speed_loop_with(k, a);
-        loop.latency_samples = late;
+        loop.command_delay_s = late * loop.sample_time_s;
         const bool is_stable = speed_damping_ratio(loop) > 0.0;
         EXPECT_EQ(is_stable, growth_with_latency(loop, static_cast<std::size_t>(late)) < 1.0)
             << late << " " << a << " " << k;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "awmr/model/gains_file.h"
-#include "awmr/validate/open_cases.h"
 #include "validate/paper_model.h"
 
 namespace awmr::testing {

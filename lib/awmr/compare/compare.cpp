@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -22,19 +21,10 @@
 namespace awmr {
 namespace {
 
-/// Identifies a run: its indices in the lists of scenarios, gains and kYawModes, and its sample.
-struct Place {
-  std::size_t scenario, gains, mode, sample;
-};
-
 struct Layout {
   std::size_t scenarios, gains, modes, samples;
 
   std::size_t count() const { return scenarios * gains * modes * samples; }
-  /// Index of the run in the output, whose rows are sorted by scenario, gains, mode and sample.
-  std::size_t row(const Place& p) const {
-    return ((p.scenario * gains + p.gains) * modes + p.mode) * samples + p.sample;
-  }
 };
 
 /// Results of the runs, in the order of the output. An entry is empty until its run is finished.
@@ -50,8 +40,7 @@ constexpr double kMaxSharedNoise = 1e5;
 /// it; the last block frees it.
 class SharedNoise {
  public:
-  /// Noise of each sample, by the number of the sample.
-  using Drawn = std::map<std::size_t, DrawnNoise>;
+  using Drawn = std::vector<DrawnNoise>;  ///< in the order of the samples
 
   /// Registers a block that will use the noise. Call this for all blocks before the first block
   /// starts: a block that ends frees the noise if no further user is registered.
@@ -77,12 +66,15 @@ class SharedNoise {
 
 /// A batch of runs: one scenario, set of gains and mode, with the samples to run.
 struct Block {
-  std::size_t scenario, gains, mode;
+  std::size_t scenario, gains, mode;  ///< indices; `mode` in kYawModes
   std::vector<std::size_t> samples;
   /// Sensor noise, shared by all blocks of the same samples in the scenario.
   std::shared_ptr<SharedNoise> noise;
 
-  Place place(std::size_t i) const { return {scenario, gains, mode, samples[i]}; }
+  /// Index of run `i` in the output, whose rows are sorted by scenario, gains, mode and sample.
+  std::size_t row(const Layout& all, std::size_t i) const {
+    return ((scenario * all.gains + gains) * all.modes + mode) * all.samples + samples[i];
+  }
 };
 
 /// Divides the samples of this part into blocks of kBatchRuns. The blocks of the same samples in
@@ -133,14 +125,11 @@ void share_noise(const Scenario& scenario, double sample_time_s, const Block& bl
   const auto& drawn = block.noise->drawn([&] {
     SharedNoise::Drawn noise;
     for (const BatchRun& run : runs) {
-      noise[run.sample] = draw_sensor_noise(scenario, sample_time_s, run.seed, run.sample);
+      noise.push_back(draw_sensor_noise(scenario, sample_time_s, run.seed, run.sample));
     }
     return noise;
   });
-  for (BatchRun& run : runs) {
-    const auto found = drawn.find(run.sample);
-    if (found != drawn.end()) run.noise = &found->second;
-  }
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].noise = &drawn[i];
 }
 
 struct RunSetup {
@@ -167,7 +156,7 @@ void run_block(const RunSetup& setup, const Block& block, Slots& slots,
   auto driven = simulate_batch(runs, scenario, vehicle.sample_time_s, setup.arithmetic);
   block.noise->remove_user();
   for (std::size_t i = 0; i < driven.size(); ++i) {
-    const std::size_t index = setup.layout.row(block.place(i));
+    const std::size_t index = block.row(setup.layout, i);
     failures[index] = failure_of(driven[i].run, scenario);
     if (!failures[index]) continue;
     Metrics& metrics = driven[i].metrics;
@@ -254,6 +243,11 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
     if (comparison.stopped) comparison.changes.clear();  // they would be incomplete
   }
   return comparison;
+}
+
+std::string Contender::label() const {
+  const std::string name(name_of(mode));
+  return gains.empty() ? name : name + " with " + gains;
 }
 
 Result<Comparison> compare(const Model& model, const ModeGains& gains,

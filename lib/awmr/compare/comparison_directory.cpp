@@ -50,6 +50,15 @@ std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool 
   return row;
 }
 
+/// Returns the names of the columns of comparison.csv. With `with_gains`, the last column is
+/// `gains`.
+std::vector<std::string> comparison_columns(bool with_gains) {
+  std::vector<std::string> names{"scenario", "mode", "sample", "completed"};
+  for (const MetricColumn& metric : kMetricColumns) names.emplace_back(metric.name);
+  if (with_gains) names.emplace_back("gains");
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string_view, std::optional<double>>> named_metrics(
@@ -59,13 +68,6 @@ std::vector<std::pair<std::string_view, std::optional<double>>> named_metrics(
     named.emplace_back(metric.name, metric.value(metrics));
   }
   return named;
-}
-
-std::vector<std::string> comparison_columns(bool with_gains) {
-  std::vector<std::string> names{"scenario", "mode", "sample", "completed"};
-  for (const MetricColumn& metric : kMetricColumns) names.emplace_back(metric.name);
-  if (with_gains) names.emplace_back("gains");
-  return names;
 }
 
 std::string comparison_csv(const Comparison& comparison) {

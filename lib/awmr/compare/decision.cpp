@@ -16,10 +16,6 @@
 namespace awmr {
 namespace {
 
-bool has(const std::vector<Contender>& contenders, const Contender& one) {
-  return std::find(contenders.begin(), contenders.end(), one) != contenders.end();
-}
-
 /// Returns the modes of rank 1. If no mode completes a run, there are none.
 std::vector<Contender> first_of(const std::vector<RankedMode>& ranking) {
   std::vector<Contender> first;
@@ -54,15 +50,14 @@ std::optional<NarrowLead> narrow_lead_of(const ScenarioRows& scenario,
   std::optional<NarrowLead> lead;
   for (const RankedMode& other : ranking) {
     if (other.contender == first.front()) continue;
-    const std::vector<std::string>& better = other.dominated_by;
-    if (contains(better, first.front().label())) continue;
+    if (contains(other.dominated_by, first.front().label())) continue;
     const PairedDifference* gap =
         only_gap(statistics.differences, preferences, first.front(), other.contender);
     if (gap == nullptr || (lead && lead->metric != gap->metric)) continue;
     const MetricColumn& metric = *gap->metric;
     Preferences halved = preferences;
     halved.weights[std::string(metric.name)] = weight_of(metric, preferences) / kWeightFactor;
-    if (!has(first_of(rank(scenario, statistics, halved, seed)), other.contender)) continue;
+    if (!contains(first_of(rank(scenario, statistics, halved, seed)), other.contender)) continue;
     if (!lead) lead = NarrowLead{gap->metric, {}};
     lead->others.push_back(other.contender);
   }
@@ -102,7 +97,7 @@ Change change_of_weights(const ScenarioRows& scenario, const ScenarioStatistics&
         std::all_of(scenario.modes.begin(), scenario.modes.end(), [&](const ModeRows& other) {
           if (&other == &own) return true;
           const Preferences worst = worst_weights(own, other, scoring, preferences);
-          return has(first_of(rank(scenario, statistics, worst, seed)), own.contender);
+          return contains(first_of(rank(scenario, statistics, worst, seed)), own.contender);
         });
     if (stays) change.first.push_back(own.contender);
   }
@@ -205,7 +200,7 @@ std::vector<Contender> Decision::never_behind() const {
   std::vector<Contender> left;
   std::copy_if(first.begin(), first.end(), std::back_inserter(left), [&](const Contender& one) {
     return std::all_of(changes.begin(), changes.end(),
-                       [&](const Change& change) { return has(change.first, one); });
+                       [&](const Change& change) { return contains(change.first, one); });
   });
   return left;
 }
@@ -218,7 +213,7 @@ DecisionKind Decision::kind() const {
 
 bool Decision::survives(const Change& change) const {
   return std::any_of(first.begin(), first.end(),
-                     [&](const Contender& one) { return has(change.first, one); });
+                     [&](const Contender& one) { return contains(change.first, one); });
 }
 
 /// The trials are those in which the plants differ: on four wheels, tyres scrub in differential
@@ -231,7 +226,7 @@ std::vector<std::string_view> Decision::deciding_trials() const {
     for (const auto* some : {&first, &change.first}) {
       const auto& others = some == &first ? change.first : first;
       for (const Contender& one : *some) {
-        if (has(others, one)) continue;
+        if (contains(others, one)) continue;
         differential = differential || one.mode != YawMode::kSteering;
         steered = steered || one.mode != YawMode::kDifferential;
       }

@@ -4,10 +4,8 @@
 
 #include <array>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <variant>
-#include <vector>
 
 #include "awmr/simulate/metrics.h"
 
@@ -58,9 +56,5 @@ inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {"tyre_work", "tyres", "m", &Metrics::tyre_work, 0.01, 1.0},
     {"electric_work_j", "", "J", &Metrics::electric_work_j, 1.0, 0.0},
 }};
-
-/// Returns the names of the columns of comparison.csv. With `with_gains`, the last column is
-/// `gains`.
-std::vector<std::string> comparison_columns(bool with_gains);
 
 }  // namespace awmr

@@ -192,6 +192,42 @@ void correct(std::vector<PairedDifference>& differences) {
 
 }  // namespace
 
+std::size_t ModeRows::completed_count() const {
+  return at(std::ranges::count_if(counted(),
+                                  [](const ComparisonRow& row) { return row.metrics.completed; }));
+}
+
+double ModeRows::completed_share() const {
+  return static_cast<double>(completed_count()) / static_cast<double>(counted().size());
+}
+
+Comparison evaluated_part(const Comparison& comparison) {
+  Comparison part{.rows = {},
+                  .whole_samples = comparison.whole_samples,
+                  .stopped = comparison.stopped,
+                  .arithmetic = comparison.arithmetic,
+                  .changes = comparison.changes};
+  for (const ComparisonRow& row : comparison.rows) {
+    if (row.sample < comparison.whole_samples) part.rows.push_back(row);
+  }
+  return part;
+}
+
+std::vector<ScenarioRows> group(const Comparison& comparison) {
+  std::vector<ScenarioRows> scenarios;
+  for (const ComparisonRow& row : comparison.rows) {
+    if (scenarios.empty() || scenarios.back().scenario != row.scenario) {
+      scenarios.push_back({row.scenario, {}});
+    }
+    std::vector<ModeRows>& modes = scenarios.back().modes;
+    const Contender contender{row.mode, row.gains};
+    if (modes.empty() || modes.back().contender != contender) modes.push_back({contender, {}});
+    const std::size_t before = modes.back().rows.size();
+    modes.back().rows = {&row - before, before + 1};
+  }
+  return scenarios;
+}
+
 std::vector<double> holm(std::span<const double> p) {
   std::vector<std::size_t> order(p.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -1,7 +1,8 @@
-/// Statistics of a comparison: means, quantiles and paired differences of its rows. Private to
-/// compare/.
+/// Rows of a comparison, grouped by scenario and contender, and their statistics: means, quantiles
+/// and paired differences. Private to compare/.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <optional>
@@ -11,13 +12,40 @@
 
 #include "awmr/compare/compare.h"
 #include "awmr/compare/metric_columns.h"
-#include "awmr/compare/mode_rows.h"
 #include "awmr/compare/preferences.h"
 #include "awmr/core/index.h"
 #include "awmr/core/interval.h"
 #include "awmr/core/name_table.h"
 
 namespace awmr {
+
+/// Rows of one contender in one scenario: sample 0 (the nominal model), then the drawn samples.
+struct ModeRows {
+  Contender contender;
+  std::span<const ComparisonRow> rows;  ///< sample 0 first, then the drawn samples; never empty
+
+  const Metrics& nominal() const { return rows.front().metrics; }
+  /// Rows from which all statistics are computed: the rows of the drawn samples or, without drawn
+  /// samples, the row of the nominal run.
+  std::span<const ComparisonRow> counted() const {
+    return rows.size() > 1 ? rows.subspan(1) : rows;
+  }
+  std::size_t completed_count() const;
+  /// Share of the counted runs that complete the scenario, in [0, 1].
+  double completed_share() const;
+  std::string label() const { return contender.label(); }
+};
+
+/// Rows of one scenario, by contender.
+struct ScenarioRows {
+  std::string scenario;
+  std::vector<ModeRows> modes;
+};
+
+/// Precondition: all samples are complete (evaluated_part()).
+std::vector<ScenarioRows> group(const Comparison& comparison);
+/// Returns the comparison without the samples that are not finished for all contenders.
+Comparison evaluated_part(const Comparison& comparison);
 
 /// Mean of one or more values.
 double mean_of(std::span<const double> values);

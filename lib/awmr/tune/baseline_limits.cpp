@@ -1,5 +1,3 @@
-#include "awmr/tune/baseline_limits.h"
-
 #include <fmt/format.h>
 
 #include <optional>
@@ -7,6 +5,7 @@
 
 #include "awmr/tune/goals.h"
 #include "awmr/tune/option_table.h"
+#include "awmr/tune/tuning_steps.h"
 
 namespace awmr {
 namespace {

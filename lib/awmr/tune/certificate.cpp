@@ -122,7 +122,7 @@ ValuedPoint search_by_pattern(ValuedPoint best, const PointFunction& value, Rand
 /// Returns the point with the smallest value in each orthant of the ball (all points whose
 /// coordinates have the same signs). The pattern search starts from each of these points, because
 /// the function can have several local minima.
-std::vector<ValuedPoint> best_by_orthant(std::vector<ValuedPoint> points) {
+std::map<unsigned, ValuedPoint> best_by_orthant(std::vector<ValuedPoint> points) {
   std::map<unsigned, ValuedPoint> best;
   for (ValuedPoint& one : points) {
     unsigned orthant = 0;
@@ -132,9 +132,7 @@ std::vector<ValuedPoint> best_by_orthant(std::vector<ValuedPoint> points) {
     const auto [place, is_new] = best.try_emplace(orthant, one);
     if (!is_new && one.value < place->second.value) place->second = std::move(one);
   }
-  std::vector<ValuedPoint> starts;
-  for (auto& [orthant, one] : best) starts.push_back(std::move(one));
-  return starts;
+  return best;
 }
 
 ValuedPoint least_over_set(std::size_t dimension, const PointFunction& value) {
@@ -145,9 +143,9 @@ ValuedPoint least_over_set(std::size_t dimension, const PointFunction& value) {
     const double there = value(point);
     points.push_back({std::move(point), there});
   }
-  const std::vector<ValuedPoint> starts = best_by_orthant(std::move(points));
-  ValuedPoint least = starts.front();
-  for (const ValuedPoint& start : starts) {
+  const std::map<unsigned, ValuedPoint> starts = best_by_orthant(std::move(points));
+  ValuedPoint least = starts.begin()->second;
+  for (const auto& [orthant, start] : starts) {
     ValuedPoint found = search_by_pattern(start, value, random);
     if (found.value < least.value) least = std::move(found);
   }
@@ -165,6 +163,55 @@ std::vector<std::pair<ParameterId, double>> loop_parameters(const Model& model,
     if (has(model.vehicle, id) && !is_absent_term(model, id)) values.emplace_back(id, all[i]);
   }
   return values;
+}
+
+/// Inputs that define the heading loops of certify(): a confidence set of plants, and the factors
+/// of their mass.
+struct CertifiedLoops {
+  const Model& model;
+  const ConstraintContext& context;
+  const Gains<double>& gains;
+  const ConfidenceSet& set;
+  std::vector<double> mass_factors;
+
+  std::optional<Plant<double>> plant_at(const SetPoint& point, double mass_factor) const {
+    auto plant = set.plant_at(std::span(point).first(point.size() - 1));
+    if (plant) plant->inertia_norm *= mass_factor;
+    return plant;
+  }
+};
+
+/// Smallest value of `measure` (damping ratio or delay margin) over the heading loops in this mode.
+WorstCase worst_case(const CertifiedLoops& loops, const ModeCertificate& mode,
+                     double (*measure)(const SampledHeadingLoop&)) {
+  const auto rate_at = [&rates = mode.yaw_rate_radps](const SetPoint& point) {
+    return rates.lo * std::pow(rates.hi / rates.lo, point.back());
+  };
+  WorstCase worst{.value = std::numeric_limits<double>::infinity()};
+  for (const double mass_factor : loops.mass_factors) {
+    const ValuedPoint least = least_over_set(loops.set.dimension(), [&](const SetPoint& point) {
+      const auto plant = loops.plant_at(point, mass_factor);
+      if (!plant) return std::numeric_limits<double>::infinity();
+      return measure(certified_loop(loops.gains, loops.context, *plant, rate_at(point), mode.mode));
+    });
+    if (least.value >= worst.value && !worst.parameters.empty()) continue;
+    const Plant<double> plant = loops.plant_at(least.point, mass_factor).value();
+    worst = {.value = least.value,
+             .yaw_rate_radps = rate_at(least.point),
+             .parameters = loop_parameters(loops.model, plant)};
+  }
+  return worst;
+}
+
+/// The yaw rates to examine in a mode: examined_rates_radps(), and up to the highest yaw rate in
+/// its runs. A run that broke off does not count.
+Interval rates_in(YawMode mode, const ConstraintContext& context, std::span<const ModeScore> runs) {
+  Interval rates = examined_rates_radps(context);
+  for (const ModeScore& run : runs) {
+    if (run.mode != mode || run.has_failed) continue;
+    rates.hi = std::max(rates.hi, radians(run.metrics.yaw_rate_max_degps));
+  }
+  return rates;
 }
 
 }  // namespace
@@ -221,59 +268,6 @@ SampledHeadingLoop certified_loop(const Gains<double>& gains, const ConstraintCo
   loop.command_delay_s = context.latency_s;
   return loop;
 }
-
-namespace {
-
-/// Inputs that define the heading loops of certify(): a confidence set of plants, and the factors
-/// of their mass.
-struct CertifiedLoops {
-  const Model& model;
-  const ConstraintContext& context;
-  const Gains<double>& gains;
-  const ConfidenceSet& set;
-  std::vector<double> mass_factors;
-
-  std::optional<Plant<double>> plant_at(const SetPoint& point, double mass_factor) const {
-    auto plant = set.plant_at(std::span(point).first(point.size() - 1));
-    if (plant) plant->inertia_norm *= mass_factor;
-    return plant;
-  }
-};
-
-/// Smallest value of `measure` (damping ratio or delay margin) over the heading loops in this mode.
-WorstCase worst_case(const CertifiedLoops& loops, const ModeCertificate& mode,
-                     double (*measure)(const SampledHeadingLoop&)) {
-  const auto rate_at = [&rates = mode.yaw_rate_radps](const SetPoint& point) {
-    return rates.lo * std::pow(rates.hi / rates.lo, point.back());
-  };
-  WorstCase worst{.value = std::numeric_limits<double>::infinity()};
-  for (const double mass_factor : loops.mass_factors) {
-    const ValuedPoint least = least_over_set(loops.set.dimension(), [&](const SetPoint& point) {
-      const auto plant = loops.plant_at(point, mass_factor);
-      if (!plant) return std::numeric_limits<double>::infinity();
-      return measure(certified_loop(loops.gains, loops.context, *plant, rate_at(point), mode.mode));
-    });
-    if (least.value >= worst.value && !worst.parameters.empty()) continue;
-    const Plant<double> plant = loops.plant_at(least.point, mass_factor).value();
-    worst = {.value = least.value,
-             .yaw_rate_radps = rate_at(least.point),
-             .parameters = loop_parameters(loops.model, plant)};
-  }
-  return worst;
-}
-
-/// The yaw rates to examine in a mode: examined_rates_radps(), and up to the highest yaw rate in
-/// its runs. A run that broke off does not count.
-Interval rates_in(YawMode mode, const ConstraintContext& context, std::span<const ModeScore> runs) {
-  Interval rates = examined_rates_radps(context);
-  for (const ModeScore& run : runs) {
-    if (run.mode != mode || run.has_failed) continue;
-    rates.hi = std::max(rates.hi, radians(run.metrics.yaw_rate_max_degps));
-  }
-  return rates;
-}
-
-}  // namespace
 
 Result<Certificate> certify(const Model& model, const ConstraintContext& context,
                             const UnmodelledVariation& open, const Gains<double>& gains,

@@ -287,9 +287,13 @@ std::vector<double> residuals(const std::vector<ConstraintReport>& constraints) 
   return values;
 }
 
-bool meets_constraints(const Gains<double>& gains, const ConstraintContext& context) {
+double violation(const Gains<double>& gains, const ConstraintContext& context) {
   const std::vector<double> all = residuals(constraints_of(gains, context));
-  return *std::max_element(all.begin(), all.end()) <= 0.0;
+  return *std::max_element(all.begin(), all.end());
+}
+
+bool meets_constraints(const Gains<double>& gains, const ConstraintContext& context) {
+  return violation(gains, context) <= 0.0;
 }
 
 }  // namespace awmr

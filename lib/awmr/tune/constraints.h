@@ -4,13 +4,21 @@
 #include <limits>
 #include <vector>
 
+#include "awmr/core/interval.h"
 #include "awmr/core/units.h"
 #include "awmr/model/dynamics.h"
-#include "awmr/tune/drawn_vehicle.h"
 #include "awmr/tune/sampled_loop.h"
 #include "awmr/tune/tune.h"
 
 namespace awmr {
+
+/// A vehicle on which gains are tuned or evaluated.
+struct DrawnVehicle {
+  Plant<double> plant{};
+  /// Range of the force of one wheel, divided by F_max. The allocation clips the wheel forces to
+  /// it.
+  Interval wheel_force{-1.0, 1.0};
+};
 
 /// Largest latency, in samples, for which the damping is computed.
 inline constexpr int kMaxLatencySamples = 20;
@@ -157,6 +165,9 @@ double residual(const ConstraintReport& constraint);
 
 /// The residual of each required constraint.
 std::vector<double> residuals(const std::vector<ConstraintReport>& constraints);
+
+/// Largest residual of the required constraints.
+double violation(const Gains<double>& gains, const ConstraintContext& context);
 
 /// True if the gains meet every required constraint.
 bool meets_constraints(const Gains<double>& gains, const ConstraintContext& context);

@@ -13,12 +13,10 @@
 namespace awmr {
 namespace {
 
-/// feasible_start(): number of random starts, in addition to the baseline and the middle of the
-/// bounds, and number of evaluations from each start.
-constexpr int kRandomStarts = 30;
+/// Number of evaluations of each search.
 constexpr int kStartEvaluations = 300;
 
-/// Data of the NLopt callbacks of feasible_start() and least_relaxed(). The violation of a
+/// Data of the NLopt callbacks of feasible_gains() and least_relaxed(). The violation of a
 /// candidate does not include the constraints named in `relaxed`.
 struct Feasibility {
   SearchSpace space;
@@ -58,11 +56,11 @@ double relaxed_callback(unsigned dimension, const double* x, double*, void* data
   return static_cast<Feasibility*>(data)->look_at(point_at(dimension, x)).second;
 }
 
-/// Returns the point with the index `index` from which feasible_start() starts: 0 is the baseline,
-/// 1 the middle of the bounds; the others are random.
+/// Returns the point with the index `index` from which feasible_gains() starts: 0 is `first`, 1 the
+/// middle of the bounds; the others are random.
 Point start_point(int index, const SearchSpace& space, std::uint64_t seed,
-                  const Gains<double>& baseline) {
-  if (index == 0) return space.point_of(baseline);
+                  const Gains<double>& first) {
+  if (index == 0) return space.point_of(first);
   const Point lo = space.lower_corner();
   const Point hi = space.upper_corner();
   Random random(seed, static_cast<std::uint64_t>(index));
@@ -75,14 +73,12 @@ Point start_point(int index, const SearchSpace& space, std::uint64_t seed,
 
 /// Searches from start_point() 0, 1, ... until `problem.best` meets the constraints that are not in
 /// `relaxed`, at most from `starts` starts.
-void search_from_starts(Feasibility& problem, std::uint64_t seed, const Gains<double>& baseline,
+void search_from_starts(Feasibility& problem, std::uint64_t seed, const Gains<double>& first,
                         int starts) {
   for (int i = 0; i < starts && problem.best.violation > 0.0; ++i) {
-    Point x = start_point(i, problem.space, seed, baseline);
-    Optimizer opt = optimizer(NLOPT_LN_COBYLA, problem.space, kStartEvaluations);
+    Point x = start_point(i, problem.space, seed, first);
+    const Optimizer opt = local_optimizer(problem.space, kStartEvaluations);
     nlopt_set_min_objective(opt.get(), feasibility_callback, &problem);
-    nlopt_set_initial_step1(opt.get(), kFirstStep);
-    nlopt_set_xtol_abs1(opt.get(), kLastStep);
     nlopt_set_stopval(opt.get(), 0.0);
     double value = 0.0;
     nlopt_optimize(opt.get(), x.data(), &value);
@@ -110,11 +106,11 @@ const DrawnVehicle& most_violated(const Feasibility& problem, const Gains<double
 /// vehicles take almost a second for each point if the latency is long. It begins with none of the
 /// drawn vehicles. While some drawn vehicle violates a constraint with the gains found, it adds the
 /// vehicle with the largest violation and searches again from these gains.
-void search_feasible(Feasibility& problem, std::uint64_t seed, const Gains<double>& baseline,
+void search_feasible(Feasibility& problem, std::uint64_t seed, const Gains<double>& first,
                      int starts) {
   ConstraintContext some = problem.context;
   some.draws.clear();
-  Gains<double> from = baseline;
+  Gains<double> from = first;
   while (some.draws.size() < problem.context.draws.size()) {
     Feasibility few{.space = problem.space, .context = some, .relaxed = problem.relaxed};
     search_from_starts(few, seed, from, starts);
@@ -132,34 +128,23 @@ void search_feasible(Feasibility& problem, std::uint64_t seed, const Gains<doubl
 
 }  // namespace
 
-Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
-                         const Gains<double>& baseline) {
+Candidate feasible_gains(const TuneOptions& options, const ConstraintContext& context,
+                         const Gains<double>& first, int starts) {
   Feasibility problem{.space = SearchSpace(options), .context = context};
-  search_feasible(problem, options.seed, baseline, 2 + kRandomStarts);
-  return problem.best;
-}
-
-Candidate feasible_near(const TuneOptions& options, const ConstraintContext& context,
-                        const Gains<double>& gains) {
-  Feasibility problem{.space = SearchSpace(options), .context = context};
-  search_feasible(problem, options.seed, gains, 1);
+  search_feasible(problem, options.seed, first, starts);
   return problem.best;
 }
 
 std::optional<Gains<double>> least_relaxed(const TuneOptions& options,
                                            const ConstraintContext& context,
-                                           const Gains<double>& baseline,
+                                           const Gains<double>& first,
                                            std::span<const std::string> relaxed) {
   Feasibility problem{.space = SearchSpace(options), .context = context, .relaxed = relaxed};
-  constexpr int kStarts = 5;
-  search_feasible(problem, options.seed, baseline, kStarts);
+  search_feasible(problem, options.seed, first, kFewStarts);
   if (problem.best.violation > 0.0) return std::nullopt;
-  if (relaxed.empty()) return problem.best.gains;
-  Optimizer opt = optimizer(NLOPT_LN_COBYLA, problem.space, kStartEvaluations);
+  const Optimizer opt = local_optimizer(problem.space, kStartEvaluations);
   nlopt_set_min_objective(opt.get(), relaxed_callback, &problem);
   nlopt_add_inequality_constraint(opt.get(), feasibility_callback, &problem, 0.0);
-  nlopt_set_initial_step1(opt.get(), kFirstStep);
-  nlopt_set_xtol_abs1(opt.get(), kLastStep);
   Point x = problem.space.point_of(problem.least.gains);
   double value = 0.0;
   nlopt_optimize(opt.get(), x.data(), &value);

@@ -12,23 +12,24 @@
 
 namespace awmr {
 
-/// Searches gains within the bounds that meet all constraints which can be evaluated without a
-/// simulation. Starts from `baseline`, then from other points, until it finds such gains. If it
-/// finds none, it returns the gains with the smallest violation: the largest violation of a
-/// constraint counts.
-Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
-                         const Gains<double>& baseline);
+/// Number of points from which feasible_gains() searches by default, and number for the searches of
+/// a message, which try many limits.
+inline constexpr int kStarts = 32;
+inline constexpr int kFewStarts = 5;
 
-/// As feasible_start(), but searches only from `gains`.
-Candidate feasible_near(const TuneOptions& options, const ConstraintContext& context,
-                        const Gains<double>& gains);
+/// Searches gains within the bounds that meet all constraints which can be evaluated without a
+/// simulation. Starts from `first`, then from other points, until it finds such gains, at most from
+/// `starts` points. If it finds none, it returns the gains with the smallest violation: the largest
+/// violation of a constraint counts.
+Candidate feasible_gains(const TuneOptions& options, const ConstraintContext& context,
+                         const Gains<double>& first, int starts = kStarts);
 
 /// Returns gains within the bounds that meet all constraints without a simulation, except those
 /// named in `relaxed`. Among such gains, it selects those that violate the constraints in `relaxed`
-/// least. Searches from `baseline`, then from other points. Returns empty if it finds none.
+/// least. Searches from `first`, then from other points. Returns empty if it finds none.
 std::optional<Gains<double>> least_relaxed(const TuneOptions& options,
                                            const ConstraintContext& context,
-                                           const Gains<double>& baseline,
+                                           const Gains<double>& first,
                                            std::span<const std::string> relaxed);
 
 }  // namespace awmr

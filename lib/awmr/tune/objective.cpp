@@ -198,8 +198,8 @@ Evaluation Objective::operator()(const Gains<double>& gains) const {
   return (*this)(std::span(&gains, 1)).front();
 }
 
-/// Adds the objective and the control variation of one mode to `evaluation`. Returns the logarithm
-/// of the mode's objective. The scores are sorted by vehicle, then mode, then scenario.
+/// Adds the control variation of one mode to `evaluation`. Returns the logarithm of the mode's
+/// objective. The scores are sorted by vehicle, then mode, then scenario.
 double Objective::evaluate_mode(std::span<const ModeScore> scores, std::size_t mode,
                                 Evaluation& evaluation) const {
   const std::size_t scenarios = setting_.scenarios.size();
@@ -216,10 +216,8 @@ double Objective::evaluate_mode(std::span<const ModeScore> scores, std::size_t m
     }
     log_objective += mean_and_tail(std::move(by_vehicle), setting_.tail_share);
   }
-  log_objective /= static_cast<double>(scenarios);
-  evaluation.mode_objective.push_back(std::exp(log_objective));
   evaluation.mode_activity.push_back(of_baseline > 0.0 ? variation / of_baseline : 1.0);
-  return log_objective;
+  return log_objective / static_cast<double>(scenarios);
 }
 
 TradeOffPoint Objective::trade_off(std::span<const ModeScore> scores) const {

@@ -28,7 +28,7 @@
 #include <vector>
 
 #include "awmr/simulate/batch.h"
-#include "awmr/tune/drawn_vehicle.h"
+#include "awmr/tune/constraints.h"
 #include "awmr/tune/tune.h"
 
 namespace awmr {
@@ -97,8 +97,6 @@ RunNoise draw_noise(const ObjectiveSetting& setting);
 struct Evaluation {
   /// Scores of the first vehicle, sorted by mode, then scenario.
   std::vector<ModeScore> scores;
-  /// Geometric mean of the objective over scenarios, in the order of modes().
-  std::vector<double> mode_objective;
   /// For each mode, the sum of the control variation of all runs, divided by that of the baseline.
   std::vector<double> mode_activity;
   /// Quantile of the excess of each goal in each mode (goals.h), sorted by goal, then mode. A goal

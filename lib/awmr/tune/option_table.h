@@ -15,17 +15,14 @@
 namespace awmr {
 
 inline constexpr NumberRule kDraws{.min = 0.0, .max = 1000.0};
-inline constexpr NumberRule kEvaluationDraws{.min = 0.0, .max = 100'000.0};
-inline constexpr NumberRule kShareAboveZero{.min = 0.0, .max = 1.0, .min_excluded = true};
 inline constexpr NumberRule kBetweenZeroAndOne{
     .min = 0.0, .max = 1.0, .min_excluded = true, .max_excluded = true};
 /// Range of damping ratios and noise_share. A limit below 1e-6 would have no effect.
 inline constexpr NumberRule kLimitShare{.min = 1e-6, .max = 1.0};
 /// Ranges for a goal: the limit of a metric, and the required share of drawn vehicles.
 inline constexpr NumberRule kGoalLimit{.min = 1e-9, .max = 1e9};
-inline constexpr NumberRule kGoalShare{.min = kMinGoalShare, .max = kMaxGoalShare};
-inline constexpr NumberRule kMassFactor{.min = kMinMassFactor, .max = kMaxMassFactor};
-inline constexpr NumberRule kWeight{.min = 0.0, .max = 1e6};
+inline constexpr NumberRule kGoalShare{.min = 0.5, .max = 0.999};
+inline constexpr NumberRule kMassFactor{.min = 0.1, .max = 10.0};
 inline constexpr NumberRule kUpToAMillion{.min = 0.0, .max = 1e6, .min_excluded = true};
 
 template <class Options, class Field>
@@ -34,8 +31,8 @@ void search_options(Options& options, const Field& field) {
   field("global_evaluations", options.global_evaluations, NumberRule{.min = 1.0, .max = 1e6});
   field("local_evaluations", options.local_evaluations, NumberRule{.min = 0.0, .max = 1e6});
   field("draws", options.draws, kDraws);
-  field("judged_draws", options.evaluation_draws, kEvaluationDraws);
-  field("tail_share", options.tail_share, kShareAboveZero);
+  field("judged_draws", options.evaluation_draws, NumberRule{.min = 0.0, .max = 100'000.0});
+  field("tail_share", options.tail_share, NumberRule{.min = 0.0, .max = 1.0, .min_excluded = true});
   field("activity_max", options.activity_max, kUpToAMillion);
 }
 
@@ -53,11 +50,11 @@ void limit_options(Limits& limits, const Field& field) {
 template <class Weights, class Field>
 void weight_options(Weights& weights, const Field& field) {
   for (const ObjectiveTerm& term : kObjectiveTerms) {
-    field(term.name, weights.*term.weight, kWeight);
+    field(term.name, weights.*term.weight, NumberRule{.min = 0.0, .max = 1e6});
   }
 }
 
-/// True if at least one weight is above 0. (kWeight excludes negative weights.)
+/// True if at least one weight is above 0.
 inline bool has_weight(const ObjectiveWeights& weights) {
   bool has = false;
   weight_options(weights, [&](const char*, double weight, const auto&) { has |= weight > 0.0; });

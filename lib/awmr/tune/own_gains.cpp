@@ -3,7 +3,9 @@
 #include <vector>
 
 #include "awmr/model/gains_json.h"
+#include "awmr/tune/robust.h"
 #include "awmr/tune/settling.h"
+#include "awmr/tune/tuning_context.h"
 #include "awmr/tune/tuning_steps.h"
 
 namespace awmr {
@@ -42,73 +44,129 @@ bool is_better(const Gains<double>& own, const Gains<double>& common, const Obje
          settled_share(runs, own) >= std::min(kSettledShare, settled_share(runs, common));
 }
 
-/// Replaces the objectives and scores of `tuning` (over all modes) by those in the runs of one
-/// mode. They are relative to the baseline of `objective`, which is Tuning::baseline.
-void evaluate_in(const Objective& objective, const Scenario& held_out, Tuning& tuning) {
-  const Evaluation evaluation = objective(tuning.gains);
-  tuning.objective = evaluation.objective;
-  tuning.scores = evaluation.scores;
-  tuning.baseline_objective = objective.baseline().objective;
-  tuning.baseline_scores = objective.baseline().scores;
-  ObjectiveSetting elsewhere = objective.setting();
-  elsewhere.scenarios = {held_out};
-  const Objective of_held_out(std::move(elsewhere), tuning.baseline.gains.common());
-  const Evaluation held_out_evaluation = of_held_out(tuning.gains);
-  tuning.held_out_objective = held_out_evaluation.objective;
-  tuning.held_out_scores = held_out_evaluation.scores;
+/// Time of the scenarios in a search for one mode alone, as a share of that in a search for all
+/// modes (TuneOptions::has_default_scenarios).
+Result<double> time_share(const Model& model, const TuneOptions& options, YawMode mode) {
+  if (!options.has_default_scenarios) return 1.0;
+  AWMR_ASSIGN_OR_RETURN(const Scenario all, default_tuning_scenario(model));
+  AWMR_ASSIGN_OR_RETURN(const Scenario alone, default_tuning_scenario(model, mode));
+  return alone.duration_s / all.duration_s;
 }
 
-/// Returns the results for a mode that keeps the gains for all modes, `common`. `objective`: of the
-/// runs of the mode, relative to its `baseline`.
-Result<Tuning> kept(const Tuning& common, const Objective& objective, const Scenario& held_out,
-                    Baseline baseline, const ModeTuning& steps) {
-  const bool is_other =
-      gains_to_json(baseline.gains.common()) != gains_to_json(common.baseline.gains.common());
-  Tuning tuning = in_mode(common, *objective.setting().mode);
-  tuning.baseline = std::move(baseline);
-  evaluate_in(objective, held_out, tuning);
-  if (!is_other) return tuning;
-  // The trade-off is that of all modes, with the baseline of combined mode.
-  std::erase_if(tuning.trade_off.named,
-                [](const NamedTradeOff& one) { return one.gains == "baseline"; });
-  AWMR_RETURN_IF_ERROR(steps.compare_with_baseline(tuning));
-  return tuning;
-}
+/// Inputs of the searches for one mode alone.
+struct ModeSearches {
+  const Model& model;
+  const TuningProblem& problem;  ///< of the search for all modes
+  const TuneOptions& options;
+  const Scenario& held_out;
+  const Tuning& common;  ///< result of the search for all modes
+  /// `options` with an observer, if the gains for all modes have one: without it, a single mode
+  /// would not reject constant disturbances.
+  TuneOptions observed = options;
+
+  /// The problem of a search for one mode.
+  Result<TuningProblem> problem_in(YawMode mode) const {
+    TuningProblem of_mode = problem;
+    AWMR_ASSIGN_OR_RETURN(const double share, time_share(model, options, mode));
+    of_mode.setting = with_times_scaled(std::move(of_mode.setting), share);
+    return of_mode;
+  }
+
+  /// Tunes for one mode. If runs do not settle with the observer, because it makes the commands
+  /// noisier, and an observer was not requested, also tunes without it, and returns the result
+  /// without it if the share of settled runs is larger by at least kWorthIt.
+  Result<Tuning> search(YawMode mode) const {
+    AWMR_ASSIGN_OR_RETURN(const TuningProblem of_mode, problem_in(mode));
+    AWMR_ASSIGN_OR_RETURN(const Scenario own_held_out, held_out_scenario(model, mode));
+    Result<Tuning> tuning = tune_for(mode, model, of_mode, observed, own_held_out);
+    if (options.observer || !observed.observer) return tuning;
+    const ObjectiveSetting runs = runs_in(of_mode.setting, {}, mode);
+    const double share = tuning ? settled_share(runs, tuning->gains) : 0.0;
+    if (share >= kSettledShare) return tuning;
+    TuneOptions without = options;
+    without.adds_observer = false;
+    Result<Tuning> other = tune_for(mode, model, of_mode, without, own_held_out);
+    const bool is_worth_it = other && settled_share(runs, other->gains) >= share + kWorthIt;
+    return is_worth_it ? std::move(other) : std::move(tuning);
+  }
+
+  /// Returns the results for a mode that keeps the gains for all modes, relative to `baseline`.
+  Result<Tuning> kept(YawMode mode, const Baseline& baseline) const {
+    Tuning tuning = in_mode(common, mode);
+    tuning.baseline = baseline;
+    evaluate_in(runs_in(problem.setting, {}, mode), tuning);
+    if (gains_to_json(baseline.gains.common()) == gains_to_json(common.baseline.gains.common())) {
+      return tuning;
+    }
+    // The trade-off is that of all modes, with the baseline of combined mode.
+    std::erase_if(tuning.trade_off.named,
+                  [](const NamedTradeOff& one) { return one.gains == "baseline"; });
+    AWMR_RETURN_IF_ERROR(compare_with_baseline(tuning));
+    return tuning;
+  }
+
+ private:
+  /// Replaces the objectives and scores of `tuning` (over all modes) by those in the runs of one
+  /// mode, relative to Tuning::baseline.
+  void evaluate_in(const ObjectiveSetting& runs, Tuning& tuning) const {
+    const Objective objective(runs, tuning.baseline.gains.common());
+    const Evaluation evaluation = objective(tuning.gains);
+    tuning.objective = evaluation.objective;
+    tuning.scores = evaluation.scores;
+    tuning.baseline_objective = objective.baseline().objective;
+    tuning.baseline_scores = objective.baseline().scores;
+    const Evaluation elsewhere =
+        evaluate_held_out(runs, held_out, tuning.baseline.gains.common(), tuning.gains);
+    tuning.held_out_objective = elsewhere.objective;
+    tuning.held_out_scores = elsewhere.scores;
+  }
+
+  /// Computes again those results for a mode (Tuning::mode) that depend on its baseline: the limits
+  /// that it violates, and the runs of newly drawn vehicles.
+  Status compare_with_baseline(Tuning& tuning) const {
+    auto [setting, context, robust] = problem;
+    setting.mode = context.mode = tuning.mode;
+    if (robust) limit_steering_rate(context);
+    const Gains<double>& baseline = tuning.baseline.gains.common();
+    tuning.baseline_violates =
+        violated_by_baseline(baseline, Objective(setting, baseline), context, options);
+    if (!tuning.robust) return {};
+    return evaluate_on_new_vehicles(model, setting, options, tuning);
+  }
+};
 
 }  // namespace
 
-Result<std::optional<Tuning>> with_own_gains(const ObjectiveSetting& setting,
-                                             const Scenario& held_out, const Tuning& common,
-                                             const std::optional<Baseline>& requested,
-                                             const ModeTuning& steps) {
+Result<Tuning> tune_by_mode(const Model& model, const TuningProblem& problem,
+                            const TuneOptions& options, const Scenario& held_out, Tuning common) {
+  ModeSearches searches{model, problem, options, held_out, common};
+  if (common.gains.observer.is_on() && !options.observer) {
+    searches.observed.observer.emplace();
+    AWMR_RETURN_IF_ERROR(limit_observer(problem.context, searches.observed.observer));
+  }
   bool is_any_better = false;
   std::vector<Tuning> all;
   std::vector<ModeCertificate> certified;
-  for (const YawMode mode : setting.modes()) {
-    Result<Tuning> own = steps.search(mode);
-    Baseline baseline = requested ? requested->in(mode) : common.baseline;
-    AWMR_ASSIGN_OR_RETURN(ObjectiveSetting of_mode, steps.setting(mode));
+  for (const YawMode mode : problem.setting.modes()) {
+    Result<Tuning> tuning = searches.search(mode);
+    const Baseline baseline = options.baseline ? options.baseline->in(mode) : common.baseline;
+    AWMR_ASSIGN_OR_RETURN(const TuningProblem of_mode, searches.problem_in(mode));
     const bool is_used =
-        own && is_better(own->gains, common.gains,
-                         Objective(runs_in(std::move(of_mode), {}, mode), baseline.gains.common()));
+        tuning && is_better(tuning->gains, common.gains,
+                            Objective(runs_in(of_mode.setting, {}, mode), baseline.gains.common()));
     is_any_better = is_any_better || is_used;
-    if (is_used) {
-      all.push_back(*std::move(own));
-    } else {
-      const Objective objective(runs_in(setting, {}, mode), baseline.gains.common());
-      AWMR_ASSIGN_OR_RETURN(Tuning same,
-                            kept(common, objective, held_out, std::move(baseline), steps));
-      all.push_back(std::move(same));
-    }
-    if (all.back().gains.observer.is_on()) all.back().observer_added |= common.observer_added;
-    certified.push_back(all.back().certificate->modes.front());
+    if (!is_used) tuning = searches.kept(mode, baseline);
+    if (!tuning) return tuning;
+    if (tuning->gains.observer.is_on()) tuning->observer_added |= common.observer_added;
+    certified.push_back(tuning->certificate->modes.front());
+    all.push_back(*std::move(tuning));
   }
-  if (!is_any_better) return std::optional<Tuning>();
+  if (!is_any_better) return common;
   Tuning tuning = std::move(all.back());  // combined is the last mode
   all.pop_back();
   tuning.certificate->modes = std::move(certified);
   tuning.own = std::move(all);
-  return std::optional(std::move(tuning));
+  return tuning;
 }
 
 }  // namespace awmr

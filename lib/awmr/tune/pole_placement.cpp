@@ -27,11 +27,6 @@ const ConstraintReport& named(const std::vector<ConstraintReport>& all, std::str
   return *std::ranges::find(all, name, &ConstraintReport::name);
 }
 
-double violation(const Gains<double>& gains, const ConstraintContext& context) {
-  const std::vector<double> broken = residuals(constraints_of(gains, context));
-  return *std::ranges::max_element(broken);
-}
-
 /// Smallest mu or mu_s that meets the constraint "mu dominates" or "mu_s dominates".
 double least_mu(const ConstraintReport& dominates) {
   return std::max(dominates.limit / kInside, kMinMu);

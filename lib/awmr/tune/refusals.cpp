@@ -1,5 +1,3 @@
-#include "awmr/tune/refusals.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -14,6 +12,7 @@
 #include "awmr/tune/goals.h"
 #include "awmr/tune/relaxation.h"
 #include "awmr/tune/settling.h"
+#include "awmr/tune/tuning_steps.h"
 
 namespace awmr {
 namespace {

@@ -94,23 +94,6 @@ double in_two_digits(const Limit& limit, double number) {
   return digit * (limit.relaxed_by_less ? std::floor(number / digit) : std::ceil(number / digit));
 }
 
-}  // namespace
-
-std::string advice_on(const std::string& constraint) {
-  if (const Limit* limit = limit_of(constraint)) {
-    return fmt::format("relax `{}` of tune.json", limit->key);
-  }
-  return constraint == "speed gain" ? "give a vehicle file with a shorter sample_time_s"
-                                    : "widen `bounds` of tune.json, or give slower scenarios";
-}
-
-std::string pointer_to(const std::string& constraint) {
-  const Limit* limit = limit_of(constraint);
-  return limit ? fmt::format("/{}", limit->key) : "/bounds";
-}
-
-namespace {
-
 /// Less strict values of the limit of the steering rate, ascending; relaxed_limits() has the rule.
 std::vector<double> relaxed_steering_rates(const ConstraintContext& context) {
   constexpr double kFactors[] = {1.2, 2.0, 5.0, 20.0};
@@ -151,36 +134,12 @@ std::vector<double> relaxed_numbers(const Limit& limit, double strict, double lo
   return numbers;
 }
 
-}  // namespace
-
-std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context) {
-  ConstraintContext given = context;
-  ConstraintContext by_default;
-  std::vector<std::vector<RelaxedLimit>> all;
-  for (const Limit& limit : limits()) {
-    const bool is_rate = sets(limit, kSteeringRate);
-    std::vector<RelaxedLimit> relaxed;
-    for (const double number :
-         is_rate ? relaxed_steering_rates(context)
-                 : relaxed_numbers(limit, limit.of(given), limit.of(by_default))) {
-      relaxed.push_back(
-          {.key = limit.key, .number = number, .is_steering_rate = is_rate, .context = context});
-      limit.of(relaxed.back().context) = number;
-    }
-    if (!relaxed.empty()) all.push_back(std::move(relaxed));
-  }
-  return all;
-}
-
-namespace {
-
-/// Returns gains that meet the constraints of `context`, from which tune() could start its search.
-/// Searches like feasible_start(), but from fewer initial guesses. Empty if no such gains are
-/// found.
-std::optional<Gains<double>> start_with(TuneOptions options, const ConstraintContext& context) {
+/// Returns gains from which tune() could start its search. They are feasible (violation of at most
+/// 0) if kFewStarts initial guesses suffice to find such gains.
+Candidate start_with(TuneOptions options, const ConstraintContext& context) {
   const std::array<Gains<double>, 2> poles = starting_poles(context);
   bound_around(poles, options.bounds);
-  return least_relaxed(options, context, poles[0], {});
+  return feasible_gains(options, context, poles[0], kFewStarts);
 }
 
 /// Returns gains that meet all limits of `context` except `limit`, and violate `limit` as little as
@@ -214,12 +173,44 @@ std::optional<double> number_that_permits(const Limit& limit, const ConstraintCo
   for (const double step : kSteps) {
     number = in_two_digits(limit, limit.relaxed_by_less ? needed / step : needed * step);
     if (!allows(limit.rule, number) || number == strict) continue;
-    if (start_with(requested, changed)) return number;
+    if (start_with(requested, changed).violation <= 0.0) return number;
   }
   return std::nullopt;
 }
 
 }  // namespace
+
+std::string advice_on(const std::string& constraint) {
+  if (const Limit* limit = limit_of(constraint)) {
+    return fmt::format("relax `{}` of tune.json", limit->key);
+  }
+  return constraint == "speed gain" ? "give a vehicle file with a shorter sample_time_s"
+                                    : "widen `bounds` of tune.json, or give slower scenarios";
+}
+
+std::string pointer_to(const std::string& constraint) {
+  const Limit* limit = limit_of(constraint);
+  return limit ? fmt::format("/{}", limit->key) : "/bounds";
+}
+
+std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context) {
+  ConstraintContext given = context;
+  ConstraintContext by_default;
+  std::vector<std::vector<RelaxedLimit>> all;
+  for (const Limit& limit : limits()) {
+    const bool is_rate = sets(limit, kSteeringRate);
+    std::vector<RelaxedLimit> relaxed;
+    for (const double number :
+         is_rate ? relaxed_steering_rates(context)
+                 : relaxed_numbers(limit, limit.of(given), limit.of(by_default))) {
+      relaxed.push_back(
+          {.key = limit.key, .number = number, .is_steering_rate = is_rate, .context = context});
+      limit.of(relaxed.back().context) = number;
+    }
+    if (!relaxed.empty()) all.push_back(std::move(relaxed));
+  }
+  return all;
+}
 
 std::vector<std::string> single_changes(const Gains<double>& nearest,
                                         const ConstraintContext& context,
@@ -235,15 +226,16 @@ std::vector<std::string> single_changes(const Gains<double>& nearest,
   if (context.form == ReachingForm::kStrict) {
     ConstraintContext changed = context;
     changed.form = ReachingForm::kPaper;
-    if (start_with(requested, changed)) changes.push_back("`form` \"paper\"");
+    if (start_with(requested, changed).violation <= 0.0) changes.push_back("`form` \"paper\"");
   }
   for (const SearchedGain& gain : kSearchedGains) {
     if (!(requested.bounds.*gain.bounds)) continue;
     TuneOptions wider = requested;
     wider.bounds.*gain.bounds = std::nullopt;
-    const auto gains = start_with(wider, context);
-    if (!gains) continue;
-    changes.push_back(fmt::format("`bounds/{}` that contain {:.3g}", gain.key, gain.of(*gains)));
+    const Candidate start = start_with(wider, context);
+    if (start.violation > 0.0) continue;
+    changes.push_back(
+        fmt::format("`bounds/{}` that contain {:.3g}", gain.key, gain.of(start.gains)));
   }
   return changes;
 }

@@ -12,6 +12,7 @@
 #include "awmr/core/index.h"
 #include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
+#include "awmr/model/paper_gains.h"
 #include "awmr/simulate/plant_sampler.h"
 
 namespace awmr {
@@ -67,15 +68,6 @@ void open_up(const UnmodelledVariation& open, std::size_t number, DrawnVehicle& 
   if (!open.wheel_forces.empty()) vehicle.wheel_force = open.wheel_forces[turn / masses];
 }
 
-}  // namespace
-
-std::size_t UnmodelledVariation::combinations() const {
-  return std::max<std::size_t>(1, mass_factors.size()) *
-         std::max<std::size_t>(1, wheel_forces.size());
-}
-
-namespace {
-
 /// Returns a sampler of the model's covariance that ignores mass_norm_by_grip, the larger m' with
 /// which a coast-down needs no more grip than tyres have (paper's vehicle: three times the
 /// identified m'). The gains must meet the constraints on all draws, so draws with this m' would
@@ -85,7 +77,27 @@ Result<PlantSampler> sampler_of(Model model) {
   return PlantSampler::make(model);
 }
 
+/// XORed with the seed, to evaluate the tuned gains on vehicles that the search did not use.
+constexpr std::uint64_t kEvaluationSeeds = 0x6a75646765ULL;
+
+std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
+  std::vector<NamedCandidate> candidates{{kRobustGains, tuning.gains},
+                                         {"baseline", tuning.baseline.gains.common()}};
+  if (tuning.baseline.source != kPaperSource) candidates.push_back({"paper", kPaperGains});
+  if (tuning.gains.observer.is_on()) {
+    Gains<double> unobserved = tuning.gains;
+    unobserved.observer = {};
+    candidates.push_back({"unobserved", unobserved});
+  }
+  return candidates;
+}
+
 }  // namespace
+
+std::size_t UnmodelledVariation::combinations() const {
+  return std::max<std::size_t>(1, mass_factors.size()) *
+         std::max<std::size_t>(1, wheel_forces.size());
+}
 
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
                                               const UnmodelledVariation& open, Spread spread) {
@@ -109,40 +121,46 @@ Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std
   return vehicles;
 }
 
-std::vector<EvaluatedRuns> run_candidates(const ObjectiveSetting& setting,
-                                          const std::vector<NamedCandidate>& candidates) {
-  const std::size_t of_own = setting.modes().size() * setting.scenarios.size();
+void evaluate_candidates(const ObjectiveSetting& setting,
+                         const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
+  const std::size_t scenarios = setting.scenarios.size();
   const RunNoise noise = draw_noise(setting);
   std::vector<EvaluatedRuns> runs;
   for (const NamedCandidate& candidate : candidates) {
     const auto scores = run_all(setting, noise, std::span(&candidate.gains, 1)).front();
-    runs.push_back(
-        {candidate.name, outcomes_of(std::span(scores).subspan(of_own), setting.scenarios)});
+    const auto of_drawn = std::span(scores).subspan(setting.modes().size() * scenarios);
+    runs.push_back({candidate.name, outcomes_of(of_drawn, setting.scenarios)});
   }
-  return runs;
-}
-
-EvaluationResult evaluation_of(const std::vector<EvaluatedRuns>& runs, const EvaluationSetup& by) {
-  EvaluationResult evaluation;
+  robust.evaluated.clear();
+  robust.evaluated_by_scenario.clear();
+  robust.goals.clear();
   for (const EvaluatedRuns& of_gains : runs) {
-    for (const YawMode mode : by.modes) {
-      evaluation.gains.push_back(evaluate(of_gains, mode, by.tail_share));
+    for (const YawMode mode : setting.modes()) {
+      robust.evaluated.push_back(evaluate(of_gains, mode, setting.tail_share));
     }
-    for (const GoalInMode& one : by_mode(by.goals, by.modes)) {
-      evaluation.goals.push_back(evaluate_goal(one, of_gains, by.scenarios.size()));
+    for (const GoalInMode& one : by_mode(setting.goals, setting.modes())) {
+      robust.goals.push_back(evaluate_goal(one, of_gains, scenarios));
     }
   }
-  const std::size_t count = by.scenarios.size();
-  for (std::size_t scenario = 0; count > 1 && scenario < count; ++scenario) {
+  for (std::size_t i = 0; scenarios > 1 && i < scenarios; ++i) {
     for (const EvaluatedRuns& of_gains : runs) {
-      const EvaluatedRuns here = in_scenario(of_gains, scenario, count);
-      for (const YawMode mode : by.modes) {
-        evaluation.by_scenario.push_back(evaluate(here, mode, by.tail_share));
-        evaluation.by_scenario.back().scenario = by.scenarios[scenario];
+      const EvaluatedRuns here = in_scenario(of_gains, i, scenarios);
+      for (const YawMode mode : setting.modes()) {
+        robust.evaluated_by_scenario.push_back(evaluate(here, mode, setting.tail_share));
+        robust.evaluated_by_scenario.back().scenario = setting.scenarios[i].name;
       }
     }
   }
-  return evaluation;
+}
+
+Status evaluate_on_new_vehicles(const Model& model, ObjectiveSetting setting,
+                                const TuneOptions& options, Tuning& tuning) {
+  if (options.evaluation_draws == 0) return {};
+  setting.seed ^= kEvaluationSeeds;
+  AWMR_ASSIGN_OR_RETURN(setting.vehicles, vehicles_of(model, options.evaluation_draws, setting.seed,
+                                                      options.open, Spread::kRandom));
+  evaluate_candidates(setting, candidates_of(tuning), *tuning.robust);
+  return {};
 }
 
 }  // namespace awmr

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "awmr/core/result.h"
-#include "awmr/tune/drawn_vehicle.h"
 #include "awmr/tune/goals.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/tune.h"
@@ -30,27 +29,14 @@ struct NamedCandidate {
 };
 
 /// Simulates every set of gains in every mode and scenario on the drawn vehicles of the setting,
-/// without its first vehicle, the nominal one.
-std::vector<EvaluatedRuns> run_candidates(const ObjectiveSetting& setting,
-                                          const std::vector<NamedCandidate>& candidates);
+/// without its first vehicle, the nominal one. Replaces the statistics in `robust`.
+void evaluate_candidates(const ObjectiveSetting& setting,
+                         const std::vector<NamedCandidate>& candidates, RobustTuning& robust);
 
-struct EvaluationResult {
-  std::vector<EvaluatedGains> gains;  ///< statistics over all scenarios, by gains, then mode
-  /// Statistics for each scenario alone, sorted by scenario, then gains, then mode. Empty with a
-  /// single scenario.
-  std::vector<EvaluatedGains> by_scenario;
-  /// Share of the vehicles that meet each goal, sorted by gains, then goal, then mode.
-  std::vector<EvaluatedGoal> goals;
-};
-/// Properties of the runs that evaluation_of() needs.
-struct EvaluationSetup {
-  std::vector<YawMode> modes;
-  std::vector<std::string> scenarios;  ///< names of the scenarios, in the order of the runs
-  /// Share of the draws in the tail, over which EvaluatedFigure::tail_mean is the mean, (0, 1].
-  double tail_share = 1.0;
-  std::vector<TuningGoal> goals;
-};
-/// Computes the statistics over all drawn vehicles for each set of gains.
-EvaluationResult evaluation_of(const std::vector<EvaluatedRuns>& runs, const EvaluationSetup& by);
+/// Evaluates the tuned gains and those with which they are compared (EvaluatedGains::gains) on
+/// TuneOptions::evaluation_draws newly drawn vehicles. Replaces the statistics in Tuning::robust,
+/// which must be present. Errors: those of vehicles_of().
+Status evaluate_on_new_vehicles(const Model& model, ObjectiveSetting setting,
+                                const TuneOptions& options, Tuning& tuning);
 
 }  // namespace awmr

@@ -96,7 +96,7 @@ Eigen::MatrixXd closed_loop(const SampledHeadingLoop& loop) {
   const double k = loop.reaching_rate;
   const double l = loop.observer_radps;
   const Eigen::Index states = l > 0.0 ? 5 : 4;
-  const Eigen::Index n = loop.latency_samples + delay.samples + (is_split ? 1 : 0);
+  const Eigen::Index n = delay.samples + (is_split ? 1 : 0);
   Eigen::RowVectorXd law = Eigen::RowVectorXd::Zero(states);
   law(0) = -loop.lambda * k;
   law(1) = loop.fed_forward_rate - loop.lambda - k - l;
@@ -131,19 +131,6 @@ double smallest_damping(const Eigen::MatrixXd& closed) {
   return worst;
 }
 
-}  // namespace
-
-double damping_ratio(const SampledHeadingLoop& loop) { return smallest_damping(closed_loop(loop)); }
-
-double speed_damping_ratio(const SampledHeadingLoop& loop) {
-  // The first state, psi, acts on no other state if lambda = 0.
-  const Eigen::MatrixXd closed = closed_loop(loop);
-  const Eigen::Index states = closed.rows() - 1;
-  return smallest_damping(closed.bottomRightCorner(states, states));
-}
-
-namespace {
-
 /// Makes the lag of a servo or motor negligible if it does not turn the vehicle in this mode. The
 /// damping ratio stays the same, because the poles of these lags are real.
 SampledHeadingLoop with_acting_lags(SampledHeadingLoop loop) {
@@ -158,29 +145,6 @@ std::vector<Pole> poles_of(const SampledHeadingLoop& loop) {
   for (const std::complex<double>& z : eigenvalues(closed_loop(loop))) poles.push_back(pole_of(z));
   return poles;
 }
-
-}  // namespace
-
-double dominant_damping_ratio(const SampledHeadingLoop& loop) {
-  constexpr double kQuick = 20.0;
-  const SampledHeadingLoop acting = with_acting_lags(loop);
-  const std::vector<Pole> poles = poles_of(acting);
-  SampledHeadingLoop unobserved = acting;
-  unobserved.observer_radps = 0.0;
-  double slowest = std::numeric_limits<double>::infinity();
-  for (const Pole& pole : acting.observer_radps > 0.0 ? poles_of(unobserved) : poles) {
-    slowest = std::min(slowest, pole.decay);
-  }
-  double worst = 1.0;
-  for (const Pole& pole : poles) {
-    const double counted =
-        slowest > 0.0 ? std::max(pole.damping, pole.decay / (kQuick * slowest)) : pole.damping;
-    worst = std::min(worst, counted);
-  }
-  return worst;
-}
-
-namespace {
 
 /// The frequency response P(w, f) of the open loop without its delay, as defined at
 /// delay_margin_s().
@@ -294,10 +258,38 @@ double settled_delay_s(const SampledHeadingLoop& loop, const std::vector<Interva
 
 }  // namespace
 
+double damping_ratio(const SampledHeadingLoop& loop) { return smallest_damping(closed_loop(loop)); }
+
+double speed_damping_ratio(const SampledHeadingLoop& loop) {
+  // The first state, psi, acts on no other state if lambda = 0.
+  const Eigen::MatrixXd closed = closed_loop(loop);
+  const Eigen::Index states = closed.rows() - 1;
+  return smallest_damping(closed.bottomRightCorner(states, states));
+}
+
+double dominant_damping_ratio(const SampledHeadingLoop& loop) {
+  constexpr double kQuick = 20.0;
+  const SampledHeadingLoop acting = with_acting_lags(loop);
+  const std::vector<Pole> poles = poles_of(acting);
+  SampledHeadingLoop unobserved = acting;
+  unobserved.observer_radps = 0.0;
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const Pole& pole : acting.observer_radps > 0.0 ? poles_of(unobserved) : poles) {
+    slowest = std::min(slowest, pole.decay);
+  }
+  double worst = 1.0;
+  for (const Pole& pole : poles) {
+    const double counted =
+        slowest > 0.0 ? std::max(pole.damping, pole.decay / (kQuick * slowest)) : pole.damping;
+    worst = std::min(worst, counted);
+  }
+  return worst;
+}
+
 double delay_margin_s(const SampledHeadingLoop& loop) {
   constexpr int kSearches = 10;
   if (!(damping_ratio(loop) > 0.0)) return 0.0;
-  const double present_s = loop.latency_samples * loop.sample_time_s + loop.command_delay_s;
+  const double present_s = loop.command_delay_s;
   double delay_s = std::numeric_limits<double>::infinity();
   double part = 0.0;
   for (int i = 0; i < kSearches; ++i) {

@@ -13,7 +13,7 @@ namespace awmr {
 ///     w_servo_dot = (w - w_servo)/T                     the steering servo
 ///     w_motor_dot = (w - w_motor)/T_m                   the motors; w_motor = w where T_m = 0
 ///     w = c r_j - (lambda + k) r_j - lambda k psi_j     the law, k = mu/eps, held over T_s;
-///                                                       r_j, psi_j: the readings n samples ago
+///                                                       r_j, psi_j: the latest readings
 ///
 /// The heading law uses the parameters of the model, which can differ from those of the plant: c is
 /// g3'(r0)/I'z of the model, and q is the model's I'z divided by the plant's. If the plant is that
@@ -41,7 +41,6 @@ struct SampledHeadingLoop {
   double direct_share = 0.0;  ///< s: 1 in differential mode, 0 in steering, 1/2 in combined
   double motor_time_constant_s = 0.0;  ///< T_m, >= 0
   double observer_radps = 0.0;         ///< L, >= 0, L T_s < 1; 0: no observer
-  int latency_samples = 0;             ///< n, 0 ... 1000: latency of the readings, in samples
   /// Delay of the held command before motors and servo, s, >= 0; need not be a multiple of T_s. A
   /// delay of the readings has the same effect as an equal delay of the command.
   double command_delay_s = 0.0;
@@ -73,9 +72,9 @@ double dominant_damping_ratio(const SampledHeadingLoop& loop);
 /// Delay margin: smallest additional delay of the command, s, that makes the loop unstable. 0 if
 /// the loop is already unstable, infinity if no delay makes it unstable.
 ///
-/// With the additional delay, the loop has the whole delay D = (n + m + f) T_s: n samples of
-/// latency (latency_samples), m further whole samples, and the fraction f of a sample, 0 <= f < 1.
-/// The loop has a pole z = e^(j w T_s) of the frequency w, rad/s, on the unit circle exactly where
+/// With the additional delay, the loop has the whole delay D = (m + f) T_s: m whole samples, and
+/// the fraction f of a sample, 0 <= f < 1. The loop has a pole z = e^(j w T_s) of the frequency w,
+/// rad/s, on the unit circle exactly where
 ///     P(w, f) = e^(j w D),
 ///     P(w, f) = C(z) (z I - Phi)^-1 (Gamma0(f) + Gamma1(f)/z) e^(j w f T_s).
 /// Phi, Gamma0 and Gamma1 describe the plant held over T_s (HeldPlant), and C the control law. The

@@ -146,8 +146,10 @@ std::vector<SearchStep> at_even_ranks(const std::vector<SearchStep>& steps) {
   return kept;
 }
 
-}  // namespace
-
+/// Runs NLopt's LN_COBYLA from `start`, then restarts it from the best point of `problem`, each
+/// time with the first step size. Stops when a run improves the objective by less than 1e-4 (while
+/// no gains are feasible: improves the violation by less), or after `most_evaluations`. Returns the
+/// reason for stopping. Errors (program fault): a failure of NLopt.
 Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
                                    int most_evaluations) {
   const int budget = problem.evaluations + most_evaluations;
@@ -155,10 +157,7 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
   Gains<double> from = start;
   for (int searches = 1; problem.evaluations < budget; ++searches) {
     const Candidate before = problem.nearest;
-    const Optimizer search =
-        optimizer(NLOPT_LN_COBYLA, problem.space(), budget - problem.evaluations);
-    nlopt_set_initial_step1(search.get(), kFirstStep);
-    nlopt_set_xtol_abs1(search.get(), kLastStep);
+    const Optimizer search = local_optimizer(problem.space(), budget - problem.evaluations);
     OneByOne callbacks(problem);
     const nlopt_result code =
         run(search.get(), callbacks, problem.constraints(), problem.space().point_of(from));
@@ -174,8 +173,6 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
   }
   return stop;
 }
-
-namespace {
 
 /// Stores in `result` the constraint that `problem.nearest` violates most, and its residual.
 void note_broken(Problem& problem, SearchResult& result) {
@@ -211,17 +208,6 @@ Result<std::string> search_from_each(Problem& problem, std::span<const Gains<dou
   return all;
 }
 
-}  // namespace
-
-Result<std::string> search_near(Problem& problem, int most_evaluations) {
-  problem.simulate_all = true;
-  const Gains<double> best = problem.nearest.gains;
-  const Gains<double> starts[] = {best, slowed(best, kSlower)};
-  return search_from_each(problem, starts, most_evaluations / static_cast<int>(std::size(starts)));
-}
-
-namespace {
-
 /// Local search on all drawn vehicles, from the best of `found` and `starts` on all vehicles.
 /// `found`: the best gains on the few vehicles of `searched`. Few vehicles can favour the wrong
 /// gains, above all if noise dominates the metrics. Starts that are much worse than `found` on the
@@ -246,6 +232,13 @@ Result<std::string> finish(Problem& problem, const Objective& searched, const Ga
 }
 
 }  // namespace
+
+Result<std::string> search_near(Problem& problem, int most_evaluations) {
+  problem.simulate_all = true;
+  const Gains<double> best = problem.nearest.gains;
+  const Gains<double> starts[] = {best, slowed(best, kSlower)};
+  return search_from_each(problem, starts, most_evaluations / static_cast<int>(std::size(starts)));
+}
 
 Result<SearchResult> search(const TuneOptions& options, const ConstraintContext& context,
                             const Objective& searched, const Objective& all,
@@ -275,8 +268,7 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
     stop += finished;
   }
   Problem& last = has_more ? on_all : problem;
-  SearchResult result{.best = std::nullopt,
-                      .nearest = last.nearest,
+  SearchResult result{.nearest = last.nearest,
                       .evaluations = problem.evaluations + on_all.evaluations,
                       .simulated = problem.simulated + on_all.simulated,
                       .history = {.best = at_even_ranks(problem.steps),
@@ -287,11 +279,7 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
                                                "over the logarithms of the gains",
                                                kPopulation),
                       .stop_reason = stop};
-  if (last.nearest.feasible()) {
-    result.best = last.nearest;
-  } else {
-    note_broken(last, result);
-  }
+  if (!last.nearest.feasible()) note_broken(last, result);
   return result;
 }
 

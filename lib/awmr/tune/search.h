@@ -2,7 +2,6 @@
 /// objective. Private to tune/.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,10 +13,8 @@
 namespace awmr {
 
 struct SearchResult {
-  std::optional<Candidate> best;  ///< the best feasible candidate, if one was found
-  /// The best candidate in the order of better(), whether it is feasible or not.
-  Candidate nearest;
-  /// If `best` is empty: the constraint that `nearest` violates most, and its residual
+  Candidate nearest;  ///< the best candidate in the order of better(), feasible or not
+  /// If `nearest` is not feasible: the constraint that it violates most, and its residual
   /// (Looked::residuals).
   std::string broken_most = {};
   double broken_by = 0.0;
@@ -31,14 +28,7 @@ struct SearchResult {
   std::string stop_reason;
 };
 
-/// Runs NLopt's LN_COBYLA from `start`, then restarts it from the best point of `problem`, each
-/// time with the first step size. Stops when a run improves the objective by less than 1e-4 (while
-/// no gains are feasible: improves the violation by less), or after `most_evaluations`. Returns the
-/// reason for stopping. Errors (program fault): a failure of NLopt.
-Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
-                                   int most_evaluations);
-
-/// Runs search_locally() in parallel from two starts, the best point of `problem` and gains with
+/// Runs local searches in parallel from two starts, the best point of `problem` and gains with
 /// slower poles, with half of `most_evaluations` each. The second start is needed because the best
 /// point often lies where several constraints meet. COBYLA, whose models of the constraints are
 /// linear, can fail to move from there. Returns the reasons for stopping. Errors (program fault): a
@@ -52,9 +42,9 @@ Result<std::string> search_near(Problem& problem, int most_evaluations);
 ///   3. if there are no feasible gains yet, LN_COBYLA on `searched` from each start;
 ///   4. if `all` has more vehicles, LN_COBYLA on `all` from the best point, including the starts.
 /// Precondition: at least one start; all starts meet the constraints that need no simulation.
-/// SearchResult::best meets every constraint exactly, whatever the tolerance of NLopt.
-/// Deterministic: NLopt's random generator is reseeded, and global searches in one process take
-/// turns. Errors (program fault): a failure of NLopt.
+/// If SearchResult::nearest is feasible, it meets every constraint exactly, whatever NLopt's
+/// tolerance. Deterministic: NLopt's random generator is reseeded, and global searches in one
+/// process take turns. Errors (program fault): a failure of NLopt.
 Result<SearchResult> search(const TuneOptions& options, const ConstraintContext& context,
                             const Objective& searched, const Objective& all,
                             std::span<const Gains<double>> starts);

@@ -11,16 +11,12 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
-#include "awmr/tune/baseline_limits.h"
 #include "awmr/tune/certificate.h"
 #include "awmr/tune/feasible_gains.h"
 #include "awmr/tune/pole_placement.h"
 #include "awmr/tune/problem.h"
-#include "awmr/tune/refusals.h"
 #include "awmr/tune/search.h"
-#include "awmr/tune/sensitivity.h"
 #include "awmr/tune/settling.h"
-#include "awmr/tune/trade_off.h"
 #include "awmr/tune/tuning_context.h"
 #include "awmr/tune/tuning_steps.h"
 #include "awmr/tune/unsettled_cause.h"
@@ -35,12 +31,6 @@ ObjectiveSetting searched(ObjectiveSetting setting, const TuneOptions& options) 
   const std::size_t draws = std::max(as_many_runs, options.open.combinations());
   if (setting.vehicles.size() > 1 + draws) setting.vehicles.resize(1 + draws);
   return setting;
-}
-
-/// The baseline of one search: the given gains for its mode (for all modes: the gains of combined
-/// mode), or gains by pole placement.
-Baseline baseline_of(const TuneOptions& options, const Gains<double>& poles) {
-  return options.baseline ? options.baseline->in(options.mode) : Baseline{poles, kPolePlacement};
 }
 
 Status check_baseline(const Objective& objective, const Baseline& baseline) {
@@ -64,7 +54,7 @@ constexpr double kStartBandwidths[] = {0.25, 0.5, 1.0, 2.0};
 ///   - if an observer is searched, gains by pole placement with each of kStartBandwidths;
 ///   - the baseline, if it is given.
 /// Gains that violate a constraint are replaced by gains near them that meet the constraints
-/// (feasible_near()), or left out if there are none.
+/// (feasible_gains()), or left out if there are none.
 std::vector<Gains<double>> starts_of(const TuneOptions& options, const ConstraintContext& context,
                                      const Gains<double>& first,
                                      std::span<const Gains<double>> poles,
@@ -84,8 +74,9 @@ std::vector<Gains<double>> starts_of(const TuneOptions& options, const Constrain
   }
   if (options.baseline) proposed.push_back([&] { return baseline.gains.common(); });
   std::vector<Candidate> near(proposed.size());
-  parallel_for(proposed.size(), 0,
-               [&](std::size_t i) { near[i] = feasible_near(options, context, proposed[i]()); });
+  parallel_for(proposed.size(), 0, [&](std::size_t i) {
+    near[i] = feasible_gains(options, context, proposed[i](), 1);
+  });
   std::vector<Gains<double>> starts{first};
   for (const Candidate& one : near) {
     if (!(one.violation > 0.0)) starts.push_back(one.gains);
@@ -168,13 +159,6 @@ Status check_settling(const Searched& s, const std::vector<ModeScore>& scores) {
   return never_settles(gains, runs, changes, s.options);
 }
 
-Evaluation evaluated_in(const Searched& s, const Scenario& held_out) {
-  ObjectiveSetting elsewhere = s.setting;
-  elsewhere.scenarios = {held_out};
-  elsewhere.goals.clear();
-  return Objective(std::move(elsewhere), s.baseline.gains.common())(s.settled.gains);
-}
-
 /// Modes in which gains for this mode alone can be better than the tuned gains.
 struct ModesAlone {
   std::vector<ModeAlone> faster;  ///< Tuning::alone
@@ -231,12 +215,13 @@ Result<Tuning> tuning_of(const Searched& s, const Scenario& held_out) {
   const auto& [model, setting, context, options, requested, baseline, poles, all, some, found,
                settled] = s;
   AWMR_ASSIGN_OR_RETURN(std::vector<ActiveConstraint> active,
-                        active_constraints(options, context, some, *found.best));
+                        active_constraints(options, context, some, found.nearest));
   const Evaluation tuned = all(settled.gains);
   AWMR_RETURN_IF_ERROR(check_settling(s, tuned.scores));
   AWMR_ASSIGN_OR_RETURN(Certificate certificate,
                         certify(model, context, options.open, settled.gains, tuned.scores));
-  const Evaluation evaluated = evaluated_in(s, held_out);
+  const Evaluation evaluated =
+      evaluate_held_out(setting, held_out, baseline.gains.common(), settled.gains);
   ModesAlone alone = modes_alone(s);
   return Tuning{
       .gains = settled.gains,
@@ -272,28 +257,37 @@ Result<Tuning> tuning_of(const Searched& s, const Scenario& held_out) {
 
 }  // namespace
 
+Evaluation evaluate_held_out(ObjectiveSetting setting, const Scenario& held_out,
+                             const Gains<double>& baseline, const Gains<double>& gains) {
+  setting.scenarios = {held_out};
+  setting.goals.clear();
+  return Objective(std::move(setting), baseline)(gains);
+}
+
 Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
                             const ConstraintContext& context, const TuneOptions& requested,
                             const Scenario& held_out) {
   const std::array<Gains<double>, 2> poles = starting_poles(context);
   TuneOptions options = requested;
   bound_around(poles, options.bounds);
-  const Candidate first = feasible_start(options, context, poles[0]);
+  const Candidate first = feasible_gains(options, context, poles[0]);
   if (first.violation > 0.0) return infeasible(first, context, requested);
-  const Baseline baseline = baseline_of(options, poles[1]);
+  const Baseline baseline =
+      options.baseline ? options.baseline->in(options.mode) : Baseline{poles[1], kPolePlacement};
   const std::vector<Gains<double>> starts =
       starts_of(options, context, first.gains, poles, baseline);
   const Objective all(setting, baseline.gains.common());
   AWMR_RETURN_IF_ERROR(check_baseline(all, baseline));
   const Objective some(searched(setting, options), baseline.gains.common());
   AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, some, all, starts));
-  SettledGains settled{found.nearest.gains, {}, {}};
-  if (found.best) settled = settle(options, context, some, all, *found.best);
+  const SettledGains settled = found.nearest.feasible()
+                                   ? settle(options, context, some, all, found.nearest)
+                                   : SettledGains{found.nearest.gains, {}, {}};
   if (auto observed =
           with_needed_observer(model, setting, context, requested, held_out, settled.gains)) {
     return *std::move(observed);
   }
-  if (!found.best) return not_found(found, all, context, requested);
+  if (!found.nearest.feasible()) return not_found(found, all, context, requested);
   return tuning_of(
       {model, setting, context, options, requested, baseline, poles[0], all, some, found, settled},
       held_out);

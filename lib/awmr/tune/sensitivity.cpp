@@ -1,10 +1,9 @@
-#include "awmr/tune/sensitivity.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "awmr/tune/search.h"
+#include "awmr/tune/tuning_steps.h"
 
 namespace awmr {
 namespace {

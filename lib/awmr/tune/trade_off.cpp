@@ -1,11 +1,10 @@
-#include "awmr/tune/trade_off.h"
-
 #include <algorithm>
 #include <tuple>
 #include <utility>
 
 #include "awmr/control/heading_lqi.h"
 #include "awmr/model/paper_gains.h"
+#include "awmr/tune/tuning_steps.h"
 
 namespace awmr {
 namespace {

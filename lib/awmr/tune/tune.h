@@ -140,14 +140,13 @@ inline constexpr double kWider = 0.1;
 /// battery voltage. The drawn vehicles take the combinations of mass factor and wheel-force range
 /// in turn. The nominal plant is not varied.
 struct UnmodelledVariation {
-  std::vector<double> mass_factors = {};  ///< factors on both m' and I'z; empty: 1
+  std::vector<double> mass_factors = {};  ///< factors on both m' and I'z, [0.1, 10]; empty: 1
   /// ranges of the wheel force F'; empty: the vehicle's own
   std::vector<Interval> wheel_forces = {};
 
   std::size_t combinations() const;  ///< >= 1
   bool any() const { return !mass_factors.empty() || !wheel_forces.empty(); }
 };
-inline constexpr double kMinMassFactor = 0.1, kMaxMassFactor = 10.0;
 inline constexpr std::size_t kMaxOpenValues = 20;  ///< largest length of each list
 
 /// Upper limit of a metric of a run, 1e-9 to 1e9, in the unit of the metric (goals.h).
@@ -159,14 +158,13 @@ struct GoalLimit {
 /// Goal: at least the required share of the drawn vehicles meets every limit in all scenarios.
 struct TuningGoal {
   std::vector<GoalLimit> at_most;  ///< one or more limits, each of another metric
-  /// Required share of the drawn vehicles, in [kMinGoalShare, kMaxGoalShare].
+  /// Required share of the drawn vehicles, [0.5, 0.999].
   double share = 0.95;
   std::optional<YawMode> mode;  ///< the only mode in which it must be met; absent: all
   /// true: missing the goal only increases the objective. false: the goal is a constraint; gains
   /// that miss it on the draws of the search are rejected.
   bool is_soft = false;
 };
-inline constexpr double kMinGoalShare = 0.5, kMaxGoalShare = 0.999;
 inline constexpr std::size_t kMaxGoals = 20;
 /// Default of evaluation_draws if tune.json has goals.
 inline constexpr int kGoalDraws = 500;
@@ -226,7 +224,7 @@ struct TuneOptions {
   std::vector<TuningGoal> goals = {};  ///< robust search only
   /// true: tune() returns one set of gains for all modes. false: if one mode alone may be much
   /// faster (Tuning::alone, Tuning::is_mode_better_alone), tune() also searches gains for each mode
-  /// (with_own_gains() in tuning_steps.h). Must be false if `mode` is present.
+  /// (tune_by_mode() in tuning_steps.h). Must be false if `mode` is present.
   bool one_set = false;
   /// Called with the number of evaluated sets of gains and with the budget, which is
   /// global_evaluations + local_evaluations. The last stage of the search, on all draws, is not
@@ -500,7 +498,7 @@ struct Tuning {
   /// constraint.
   int simulated = 0;
   /// Ranges of mu and of mu_s in which the gains are about equally good (settle() in
-  /// sensitivity.h). The tuned gains have the lower ends of these ranges.
+  /// tuning_steps.h). The tuned gains have the lower ends of these ranges.
   Interval mu_as_good, speed_mu_as_good;
   std::vector<ActiveConstraint> active;
   std::string arithmetic;  ///< rounding of the runs: BatchArithmetic::rounding

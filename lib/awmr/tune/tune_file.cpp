@@ -9,6 +9,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/scenario_file.h"
+#include "awmr/tune/goals.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/option_table.h"
 #include "awmr/tune/tune_json.h"
@@ -97,6 +98,25 @@ ObserverSearch read_observer(JsonObject& json) {
   ObserverSearch observer;
   observer_options(observer, ReadOption{json});
   return observer;
+}
+
+TuningGoal read_goal(JsonObject& json) {
+  TuningGoal goal;
+  json.object("at_most", [&](JsonObject& limits) {
+    for (const std::string& figure : run_figure_names()) {
+      if (const auto most = limits.optional_number(figure, kGoalLimit)) {
+        goal.at_most.push_back({figure, *most});
+      }
+    }
+  });
+  if (json.size("at_most") == 0) {
+    json.fault(ErrorCode::kMissing, "at_most",
+               "this goal contains no metric; give at least one with its limit");
+  }
+  goal.share = json.optional_number("share", kGoalShare).value_or(goal.share);
+  if (json.has("mode")) goal.mode = json.choice("mode", kYawModeNames);
+  goal.is_soft = json.optional_boolean("soft").value_or(false);
+  return goal;
 }
 
 void read_goals(JsonObject& json, TuneOptions& options) {

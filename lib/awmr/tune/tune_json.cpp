@@ -9,7 +9,6 @@
 
 #include "awmr/model/model_json.h"
 #include "awmr/model/vehicle_json.h"
-#include "awmr/tune/goals.h"
 #include "awmr/tune/option_table.h"
 
 namespace awmr {
@@ -23,6 +22,19 @@ void put_quantiles(const EvaluatedGains& evaluated, Json& json) {
     entry[figure.name] = {
         {"median", figure.median}, {"q95", figure.q95}, {"tail_mean", figure.tail_mean}};
   }
+}
+
+Json worst_case_json(const char* name, const WorstCase& worst) {
+  Json json;
+  json[name] = number_or_null(worst.value);
+  json["yaw_rate_degps"] = degrees(worst.yaw_rate_radps);
+  json["parameters"] = Json::object();
+  for (const auto& [id, value] : worst.parameters) json["parameters"][info(id).name] = value;
+  return json;
+}
+
+Json rates_json(const Interval& rates_radps) {
+  return {degrees(rates_radps.lo), degrees(rates_radps.hi)};
 }
 
 }  // namespace
@@ -57,25 +69,6 @@ ExaminedRange read_examined(JsonObject& json) {
   return {.speed_mps = json.number("speed_mps", kNonNegative),
           .step_rad = radians(json.number("step_deg", kNonNegative)),
           .yaw_rate_radps = radians(json.number("yaw_rate_degps", kPositive))};
-}
-
-TuningGoal read_goal(JsonObject& json) {
-  TuningGoal goal;
-  json.object("at_most", [&](JsonObject& limits) {
-    for (const std::string& figure : run_figure_names()) {
-      if (const auto most = limits.optional_number(figure, kGoalLimit)) {
-        goal.at_most.push_back({figure, *most});
-      }
-    }
-  });
-  if (json.size("at_most") == 0) {
-    json.fault(ErrorCode::kMissing, "at_most",
-               "this goal contains no metric; give at least one with its limit");
-  }
-  goal.share = json.optional_number("share", kGoalShare).value_or(goal.share);
-  if (json.has("mode")) goal.mode = json.choice("mode", kYawModeNames);
-  goal.is_soft = json.optional_boolean("soft").value_or(false);
-  return goal;
 }
 
 UnmodelledVariation read_open(JsonObject& json) {
@@ -124,23 +117,6 @@ Json by_scenario_json(const std::vector<EvaluatedGains>& evaluated) {
   for (const EvaluatedGains& one : evaluated) put_quantiles(one, json[one.scenario]);
   return json;
 }
-
-namespace {
-
-Json worst_case_json(const char* name, const WorstCase& worst) {
-  Json json;
-  json[name] = number_or_null(worst.value);
-  json["yaw_rate_degps"] = degrees(worst.yaw_rate_radps);
-  json["parameters"] = Json::object();
-  for (const auto& [id, value] : worst.parameters) json["parameters"][info(id).name] = value;
-  return json;
-}
-
-Json rates_json(const Interval& rates_radps) {
-  return {degrees(rates_radps.lo), degrees(rates_radps.hi)};
-}
-
-}  // namespace
 
 Json certificate_json(const Certificate& certificate) {
   const double margin_s = certificate.delay_margin_s();

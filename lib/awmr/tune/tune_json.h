@@ -27,9 +27,6 @@ TuningLimits read_limits(JsonObject& json);
 /// Reads `/examined` of gains.json.
 ExaminedRange read_examined(JsonObject& json);
 
-/// Reads a goal, as in tune.json.
-TuningGoal read_goal(JsonObject& json);
-
 /// Reads and writes the unmodelled variation (key `open` of tune.json).
 UnmodelledVariation read_open(JsonObject& json);
 Json open_json(const UnmodelledVariation& open);

@@ -8,7 +8,6 @@
 
 #include "awmr/core/units.h"
 #include "awmr/model/steady.h"
-#include "awmr/tune/constraints.h"
 
 namespace awmr {
 namespace {
@@ -62,6 +61,21 @@ bool turns_while_accelerating(const Scenario& scenario) {
          scenario.initial.u_mps < scenario.speed_mps;
 }
 
+/// Describes why a mode cannot turn the vehicle, and names each change of the vehicle or the
+/// scenario that alone lets it turn, with the required number.
+std::string describe(const TurningMoment& moment, const DrawnVehicle& vehicle) {
+  const std::vector<std::string> found = changes(moment, vehicle);
+  std::string text = fmt::format(
+      "the largest yaw moment of mode {} at {:.3g} m/s is {:.3g} m, but the yaw resistance at "
+      "{:.3g} deg/s is {:.3g} m (both divided by F_max). ",
+      name_of(moment.mode), moment.speed_mps, moment.available_m, degrees(kSlowest_radps),
+      moment.needed_m);
+  if (found.empty()) return text + "Use motors with more force, or reduce the yaw resistance";
+  text += "It can turn with ";
+  for (std::size_t i = 0; i < found.size(); ++i) text += (i == 0 ? "" : ", or with ") + found[i];
+  return text;
+}
+
 }  // namespace
 
 TurningMoment turning_moment(const DrawnVehicle& vehicle, double speed_mps, YawMode mode) {
@@ -79,19 +93,6 @@ TurningMoment turning_moment(const DrawnVehicle& vehicle, double speed_mps, YawM
           .speed_mps = speed_mps,
           .available_m = all,
           .needed_m = plant.yaw.at(kSlowest_radps) + scrub};
-}
-
-std::string describe(const TurningMoment& moment, const DrawnVehicle& vehicle) {
-  const std::vector<std::string> found = changes(moment, vehicle);
-  std::string text = fmt::format(
-      "the largest yaw moment of mode {} at {:.3g} m/s is {:.3g} m, but the yaw resistance at "
-      "{:.3g} deg/s is {:.3g} m (both divided by F_max). ",
-      name_of(moment.mode), moment.speed_mps, moment.available_m, degrees(kSlowest_radps),
-      moment.needed_m);
-  if (found.empty()) return text + "Use motors with more force, or reduce the yaw resistance";
-  text += "It can turn with ";
-  for (std::size_t i = 0; i < found.size(); ++i) text += (i == 0 ? "" : ", or with ") + found[i];
-  return text;
 }
 
 Status check_turning(const DrawnVehicle& vehicle, std::span<const YawMode> modes,

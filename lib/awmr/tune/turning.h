@@ -8,7 +8,7 @@
 
 #include "awmr/core/result.h"
 #include "awmr/simulate/scenario.h"
-#include "awmr/tune/drawn_vehicle.h"
+#include "awmr/tune/constraints.h"
 
 namespace awmr {
 
@@ -32,10 +32,6 @@ struct TurningMoment {
 /// F'max and F'min are the limits of the wheel force after subtracting the dead zone; with
 /// front-wheel drive, tan(d_max) replaces tan(d_max/2).
 TurningMoment turning_moment(const DrawnVehicle& vehicle, double speed_mps, YawMode mode);
-
-/// Describes why a mode cannot turn the vehicle, and names each change of the vehicle or the
-/// scenario that alone lets it turn, with the required number.
-std::string describe(const TurningMoment& moment, const DrawnVehicle& vehicle);
 
 /// Checks that the vehicle can turn in at least one mode and scenario. Errors (refused): it cannot.
 /// Precondition: the scenarios have heading guidance.

@@ -1,16 +1,24 @@
 #include "awmr/tune/unsettled_cause.h"
 
 #include <algorithm>
+#include <iterator>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "awmr/core/units.h"
 #include "awmr/model/model.h"
 #include "awmr/model/parameters.h"
 #include "awmr/tune/settling.h"
 #include "awmr/tune/steering_rate.h"
+#include "awmr/tune/turning.h"
 
 namespace awmr {
+namespace {
 
+/// Returns the effect of Coulomb friction in yaw if it keeps runs of this mode from settling: at
+/// least kSettledShare of them settle if neither the vehicles nor the control law have this
+/// friction. Precondition: fewer than kSettledShare of the runs settle.
 std::optional<FrictionEffect> friction_effect(ObjectiveSetting setting, const Gains<double>& gains,
                                               YawMode mode) {
   const Plant<double> nominal = setting.vehicles.front().plant;
@@ -21,20 +29,6 @@ std::optional<FrictionEffect> friction_effect(ObjectiveSetting setting, const Ga
   return FrictionEffect{without, degrees(friction_error_rad(gains, nominal, mode)),
                         gains.observer.bandwidth_radps};
 }
-
-std::optional<NoiseEffect> noise_effect(const ObjectiveSetting& setting,
-                                        const Gains<double>& gains) {
-  const double without = settled_share_without_noise(setting, gains);
-  if (without >= kSettledShare) return NoiseEffect{without, 1.0};
-  const ObjectiveSetting longer = with_times_scaled(setting, kMostTime);
-  const double without_in_longer = settled_share_without_noise(longer, gains);
-  if (without_in_longer < kSettledShare || enough_settle(longer, gains, kSettledShare)) {
-    return std::nullopt;
-  }
-  return NoiseEffect{without_in_longer, kMostTime};
-}
-
-namespace {
 
 /// A quantity that is drawn with the model's error. `identify` copies it from the identified plant.
 struct DrawnQuantity {
@@ -75,7 +69,68 @@ ObjectiveSetting all_identified(ObjectiveSetting setting) {
   return setting;
 }
 
+/// Gains with which runs settle only in a longer time can be slow because of the limits of the
+/// damping. If relaxing such a limit lets the runs settle, reports the changes with which they
+/// settle as the cause, in place of the noise.
+void replace_by_damping(const ObjectiveSetting& setting, const Gains<double>& gains,
+                        SettlingSearch& search, UnsettledRuns& unsettled) {
+  if (!(unsettled.noise->time_factor > 1.0)) return;
+  std::vector<SettlingChange> changes = search.changes(setting, gains, kSettledShare);
+  const auto is_of_damping = [](const SettlingChange& change) {
+    return change.pointer.ends_with("damping");
+  };
+  if (std::ranges::none_of(changes, is_of_damping)) return;
+  unsettled.noise.reset();
+  unsettled.changes = std::move(changes);
+}
+
+/// Returns why runs do not settle in one scenario and mode, and the changes with which they settle.
+/// To save time, it tries causes and changes of the gains only on the nominal vehicle and the first
+/// drawn vehicles.
+UnsettledRuns unsettled_in(const ObjectiveSetting& setting, const ConstraintContext& context,
+                           const Gains<double>& gains, bool is_varied, SettlingSearch& search) {
+  const YawMode mode = *setting.mode;
+  UnsettledRuns unsettled{.scenario = {}, .mode = mode};
+  const Status turns =
+      check_turning(context.own(), std::span(&mode, 1), setting.scenarios, std::string());
+  if (!turns) {
+    unsettled.why = turns.error().faults.front().message;
+    return unsettled;
+  }
+  const ObjectiveSetting few = on_few_vehicles(setting);
+  unsettled.vehicles = few.vehicles.size();
+  unsettled.friction = friction_effect(few, gains, mode);
+  unsettled.noise = noise_effect(few, gains);
+  if (unsettled.noise) {
+    replace_by_damping(few, gains, search, unsettled);
+    return unsettled;
+  }
+  if (few.vehicles.size() > 1 && !is_varied) {
+    unsettled.error = unsettling_error(few, gains);
+    if (!unsettled.error) unsettled.noise = noise_effect_on_identified(few, gains);
+    if (unsettled.noise) return unsettled;
+  }
+  unsettled.changes = scenario_changes(setting, gains, kSettledShare);
+  if (!unsettled.error || unsettled.error->share_of_identified < kSettledShare) {
+    std::ranges::move(search.changes(few, gains, kSettledShare),
+                      std::back_inserter(unsettled.changes));
+  }
+  return unsettled;
+}
+
 }  // namespace
+
+std::optional<NoiseEffect> noise_effect(const ObjectiveSetting& setting,
+                                        const Gains<double>& gains) {
+  const double without = settled_share_without_noise(setting, gains);
+  if (without >= kSettledShare) return NoiseEffect{without, 1.0};
+  const ObjectiveSetting longer = with_times_scaled(setting, kMostTime);
+  const double without_in_longer = settled_share_without_noise(longer, gains);
+  if (without_in_longer < kSettledShare || enough_settle(longer, gains, kSettledShare)) {
+    return std::nullopt;
+  }
+  return NoiseEffect{without_in_longer, kMostTime};
+}
 
 std::optional<NoiseEffect> noise_effect_on_identified(const ObjectiveSetting& setting,
                                                       const Gains<double>& gains) {
@@ -99,6 +154,31 @@ std::optional<UnsettlingError> unsettling_error(const ObjectiveSetting& setting,
                identified};
   }
   return largest;
+}
+
+std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveSetting& setting,
+                                          const ConstraintContext& context, bool is_varied) {
+  std::vector<UnsettledRuns> all;
+  SettlingSearch search(context);
+  const auto look_at = [&](const std::string& scenario, YawMode mode, double settled_share) {
+    if (settled_share >= kSettledShare) return;
+    all.push_back(
+        unsettled_in(runs_in(setting, scenario, mode), context, tuning.gains, is_varied, search));
+    all.back().scenario = scenario;
+    all.back().settled_share = settled_share;
+  };
+  if (tuning.robust && !tuning.robust->evaluated.empty()) {
+    const RobustTuning& robust = *tuning.robust;
+    for (const EvaluatedGains& one :
+         robust.evaluated_by_scenario.empty() ? robust.evaluated : robust.evaluated_by_scenario) {
+      if (one.gains == kRobustGains) look_at(one.scenario, one.mode, one.completed_share);
+    }
+  } else {
+    for (const ModeScore& score : tuning.scores) {
+      look_at(score.scenario, score.mode, score.metrics.completed ? 1.0 : 0.0);
+    }
+  }
+  return all;
 }
 
 }  // namespace awmr

@@ -3,17 +3,13 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "awmr/tune/constraints.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/tune.h"
 
 namespace awmr {
-
-/// Returns the effect of Coulomb friction in yaw if it keeps runs of this mode from settling: at
-/// least kSettledShare of them settle if neither the vehicles nor the control law have this
-/// friction. Precondition: fewer than kSettledShare of the runs settle.
-std::optional<FrictionEffect> friction_effect(ObjectiveSetting setting, const Gains<double>& gains,
-                                              YawMode mode);
 
 /// Returns the effect of sensor noise if it keeps the runs from settling: at least kSettledShare of
 /// them settle without noise, but not with noise. Both are tried with the duration of the
@@ -34,5 +30,12 @@ std::optional<NoiseEffect> noise_effect_on_identified(const ObjectiveSetting& se
 /// the unsettled runs do not settle with the identified values of all quantities either.
 std::optional<UnsettlingError> unsettling_error(const ObjectiveSetting& setting,
                                                 const Gains<double>& gains);
+
+/// Returns each scenario and mode in which fewer than kSettledShare of the runs settle with the
+/// tuned gains, with the causes and with changes that let the runs settle. `is_varied`: the drawn
+/// vehicles have unmodelled variation. Errors of the identified parameters are then not tried as a
+/// cause.
+std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveSetting& setting,
+                                          const ConstraintContext& context, bool is_varied);
 
 }  // namespace awmr

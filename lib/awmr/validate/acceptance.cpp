@@ -15,7 +15,6 @@
 #include "awmr/simulate/simulate.h"
 #include "awmr/trials/replay.h"
 #include "awmr/validate/drive_series.h"
-#include "awmr/validate/fault_hypotheses.h"
 
 namespace awmr {
 namespace {

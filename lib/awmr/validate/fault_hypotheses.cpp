@@ -1,5 +1,5 @@
-#include "awmr/validate/fault_hypotheses.h"
-
+// Searches for the cause of a drive that differs from the prediction: a single change of the
+// vehicle, its sensors, or the forces on it.
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
 #include "awmr/core/units.h"
+#include "awmr/validate/drive_series.h"
 
 namespace awmr {
 namespace {

@@ -1,5 +1,4 @@
-#include "awmr/validate/open_cases.h"
-
+// Evaluates the paper's claims for all combinations of settings that the paper does not give.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,12 +10,13 @@
 #include "awmr/core/gravity.h"
 #include "awmr/core/parallel.h"
 #include "awmr/core/tyre_friction.h"
+#include "awmr/validate/claims.h"
 
 namespace awmr {
 namespace {
 
 /// Factor on the normalised mass m' with which a tyre friction of 0.8 is just enough for full
-/// thrust (open_cases.h).
+/// thrust (open_cases()).
 double mass_factor(const Model& model) {
   const double least_mass_norm = kFullThrust / (kTyreFriction * kGravity_mps2);
   return least_mass_norm / *model[ParameterId::kMassNorm].value;

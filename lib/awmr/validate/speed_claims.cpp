@@ -43,48 +43,6 @@ std::string why_it_converges(bool none_over, bool no_error) {
          "commanded steering angle, but the actual angle follows later";
 }
 
-}  // namespace
-
-/// Evaluates the overshoot of the speed from the start to the second heading step, and the speed
-/// error at the end of the run. The excess over u_d after that step is reported, but does not
-/// affect the verdict; C5 evaluates the speed drop after the step.
-Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs) {
-  const double step_s = setting.hold_s();
-  const auto excess = [](Interval range) { return std::max(0.0, range.hi - kSpeed_mps); };
-  const auto overshoot = [&](const ModeRun& run) { return excess(speed_range(run, 0.0, step_s)); };
-  const auto later = [&](const ModeRun& run) {
-    return excess(speed_range(run, step_s, run.run.rows.back().t_s));
-  };
-  const auto error = [](const ModeRun& run) {
-    return run.run.rows.back().state.u_mps - kSpeed_mps;
-  };
-  constexpr double kAccepted_mps = kNoSpeedError * kSpeed_mps;
-  const auto is_over = [&](const ModeRun& run) { return overshoot(run) > kAccepted_mps; };
-  const auto is_right = [&](const ModeRun& run) { return std::abs(error(run)) <= kAccepted_mps; };
-  const bool none_over = all_modes(runs, [&](const ModeRun& run) { return !is_over(run); });
-  const bool no_error = all_modes(runs, is_right);
-  return {
-      .id = "C4",
-      .statement =
-          "the speed reaches the commanded speed u_d without overshoot and without steady-state "
-          "error",
-      .reproduced = none_over && no_error,
-      .figure = fmt::format("overshoot from rest: {}; error at the end of the run: {}; largest "
-                            "excess over u_d after the heading step to -30 deg: {}",
-                            by_mode(runs, "m/s", overshoot), by_mode(runs, "m/s", error),
-                            by_mode(runs, "m/s", later)),
-      .tolerance =
-          fmt::format("two errors of the speed are at most {} m/s each: the overshoot over u_d "
-                      "while the vehicle accelerates from rest, and the error at the end of the "
-                      "run. The excess of the speed over u_d after the heading step does not count",
-                      kAccepted_mps),
-      .why = why_it_converges(none_over, no_error),
-      .modes = verdicts_by_mode(
-          runs, [&](const ModeRun& run) { return !is_over(run) && is_right(run); })};
-}
-
-namespace {
-
 /// Commanded speed minus the smallest speed after the second heading step, m/s, >= 0.
 /// Metrics::speed_drop_mps also includes the time before that step.
 double speed_drop(const ModeRun& run, double step_s) {
@@ -137,6 +95,44 @@ std::string why_speed_is_held_or_not(bool holds, bool saturates, bool others_dro
 }
 
 }  // namespace
+
+/// Evaluates the overshoot of the speed from the start to the second heading step, and the speed
+/// error at the end of the run. The excess over u_d after that step is reported, but does not
+/// affect the verdict; C5 evaluates the speed drop after the step.
+Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs) {
+  const double step_s = setting.hold_s();
+  const auto excess = [](Interval range) { return std::max(0.0, range.hi - kSpeed_mps); };
+  const auto overshoot = [&](const ModeRun& run) { return excess(speed_range(run, 0.0, step_s)); };
+  const auto later = [&](const ModeRun& run) {
+    return excess(speed_range(run, step_s, run.run.rows.back().t_s));
+  };
+  const auto error = [](const ModeRun& run) {
+    return run.run.rows.back().state.u_mps - kSpeed_mps;
+  };
+  constexpr double kAccepted_mps = kNoSpeedError * kSpeed_mps;
+  const auto is_over = [&](const ModeRun& run) { return overshoot(run) > kAccepted_mps; };
+  const auto is_right = [&](const ModeRun& run) { return std::abs(error(run)) <= kAccepted_mps; };
+  const bool none_over = all_modes(runs, [&](const ModeRun& run) { return !is_over(run); });
+  const bool no_error = all_modes(runs, is_right);
+  return {
+      .id = "C4",
+      .statement =
+          "the speed reaches the commanded speed u_d without overshoot and without steady-state "
+          "error",
+      .reproduced = none_over && no_error,
+      .figure = fmt::format("overshoot from rest: {}; error at the end of the run: {}; largest "
+                            "excess over u_d after the heading step to -30 deg: {}",
+                            by_mode(runs, "m/s", overshoot), by_mode(runs, "m/s", error),
+                            by_mode(runs, "m/s", later)),
+      .tolerance =
+          fmt::format("two errors of the speed are at most {} m/s each: the overshoot over u_d "
+                      "while the vehicle accelerates from rest, and the error at the end of the "
+                      "run. The excess of the speed over u_d after the heading step does not count",
+                      kAccepted_mps),
+      .why = why_it_converges(none_over, no_error),
+      .modes = verdicts_by_mode(
+          runs, [&](const ModeRun& run) { return !is_over(run) && is_right(run); })};
+}
 
 Claim check_speed_held(const HeadingSetting& setting, const ModeRuns& runs) {
   const double step_s = setting.hold_s();

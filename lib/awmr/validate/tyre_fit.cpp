@@ -8,7 +8,7 @@
 
 #include "awmr/core/distributions.h"
 #include "awmr/core/option_text.h"
-#include "awmr/validate/tyre_search.h"
+#include "awmr/validate/tyre_windows.h"
 
 namespace awmr::tyre_fit {
 namespace {

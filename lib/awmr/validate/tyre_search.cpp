@@ -1,5 +1,4 @@
-#include "awmr/validate/tyre_search.h"
-
+// Least-squares search for the tyre parameters that minimise the cost of tyre_fit.h.
 #include <ceres/ceres.h>
 
 #include <Eigen/Cholesky>
@@ -11,6 +10,7 @@
 #include "awmr/core/interval.h"
 #include "awmr/core/silent_ceres.h"
 #include "awmr/model/ranges.h"
+#include "awmr/validate/tyre_windows.h"
 
 namespace awmr::tyre_fit {
 namespace {

@@ -9,7 +9,6 @@
 #include "awmr/core/index.h"
 #include "awmr/model/steady.h"
 #include "awmr/validate/claims.h"
-#include "awmr/validate/open_cases.h"
 
 namespace awmr {
 namespace {

@@ -29,7 +29,7 @@ struct TrialResidual {
   std::optional<double> relative_error;  ///< (predicted - measured)/measured
 };
 
-/// A combination of the settings that the paper leaves open (open_cases.h), and whether it
+/// A combination of the settings that the paper leaves open (open_cases()), and whether it
 /// reproduces a claim.
 struct ClaimCase {
   AllocationForm allocation = AllocationForm::kExact;
@@ -82,7 +82,7 @@ struct Validation {
 
 struct ValidateOptions {
   double tolerance = 0.15;  ///< largest accepted RMS relative error of a trial kind, > 0
-  /// True: also evaluates every claim over the settings that the paper leaves open (open_cases.h),
+  /// True: also evaluates every claim over the settings that the paper leaves open (open_cases()),
   /// which takes some seconds.
   bool open_cases = false;
   Progress progress = {};  ///< called for each finished case, on the thread of validate()

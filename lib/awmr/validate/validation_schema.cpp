@@ -136,8 +136,6 @@ std::optional<TyreFit> validation_from_json(JsonObject& json) {
   return tyres;
 }
 
-void describe_validation(JsonObject& json) { validation_from_json(json); }
-
 }  // namespace
 
 Result<TyreFit> read_tyres(const std::filesystem::path& path) {
@@ -157,7 +155,7 @@ Result<TyreFit> read_tyres(const std::filesystem::path& path) {
 
 std::string validation_schema() {
   return json_schema_text(kValidationSchema, "Validation of a model on its trials, logs and claims",
-                          describe_validation);
+                          [](JsonObject& json) { validation_from_json(json); });
 }
 
 }  // namespace awmr
