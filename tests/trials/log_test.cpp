@@ -286,7 +286,7 @@ TEST(SteadyRuns, AreFoundWithTheirSpansAndNotWhereTheSpeedStillRises) {
   const auto read = accepted_log(steady_log_text());
   const Vehicle vehicle = paper_vehicle();
   std::vector<Finding> findings;
-  const SteadyRuns runs = steady_runs(read.set, vehicle, {}, findings);
+  const SteadyRuns runs = steady_runs(read.set, vehicle, findings);
   ASSERT_THAT(runs.surge.rows, SizeIs(1));
   EXPECT_NEAR(runs.surge.rows[0].tau_speed, 1.2, 1e-9);
   EXPECT_NEAR(runs.surge.rows[0].speed_mps, 1.0, 1e-3);
@@ -313,7 +313,7 @@ TEST(SteadyRunsOfALog, AreDifferentialTurnsWithoutSteering) {
   options.has_steering = false;
   const auto read = accepted(read_log, text, options);
   std::vector<Finding> findings;
-  const SteadyRuns runs = steady_runs(read.set, vehicle, {}, findings);
+  const SteadyRuns runs = steady_runs(read.set, vehicle, findings);
   ASSERT_THAT(runs.surge.rows, SizeIs(1));
   EXPECT_NEAR(runs.surge.rows[0].tau_speed, 1.2, 1e-9);
   ASSERT_THAT(runs.turning.rows, SizeIs(1));

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/csv.h"
 #include "awmr/core/text.h"
 #include "awmr/core/units.h"
@@ -98,7 +99,7 @@ Wrong take_name(std::string_view& rest, Formula& formula) {
   const std::string_view name = take_bare_name(rest);
   rest = without_spaces(rest);
   if (rest.starts_with('(')) {
-    if (std::find(kFunctions.begin(), kFunctions.end(), name) == kFunctions.end()) {
+    if (!contains(kFunctions, name)) {
       return fmt::format("there is no function {}; use one of {}", shortened(name, 40),
                          fmt::join(kFunctions, " "));
     }

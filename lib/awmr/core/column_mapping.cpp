@@ -88,20 +88,6 @@ bool take_body(std::string_view body, ColumnMapping& mapping) {
   return take_scale_and_offset(body, mapping);
 }
 
-/// The texts left and right of the first '=' in `NAME=BODY`.
-struct Halves {
-  std::string_view name;
-  std::string_view body;
-};
-
-tl::expected<Halves, std::string> halves_of(std::string_view text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string_view::npos) return tl::unexpected(std::string("there is no '='"));
-  const std::string_view name = trimmed(text.substr(0, equals));
-  if (name.empty()) return tl::unexpected(std::string("the NAME is empty"));
-  return Halves{name, trimmed(text.substr(equals + 1))};
-}
-
 tl::unexpected<Error> wrong(std::string_view text, std::string_view why) {
   return input_error(
       ErrorCode::kBadFormula, "",
@@ -115,18 +101,20 @@ Result<ColumnMapping> parse_column(std::string_view name, std::string_view expre
 }
 
 Result<ColumnMapping> parse_column(std::string_view text) {
-  const auto halves = halves_of(text);
-  if (!halves) return wrong(text, halves.error());
-  const std::size_t colon = halves->name.rfind(':');
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) return wrong(text, "there is no '='");
+  const std::string_view target = text.substr(0, equals);
+  const std::string_view body = trimmed(text.substr(equals + 1));
+  const std::size_t colon = target.rfind(':');
   const bool per_file = colon != std::string_view::npos;
-  ColumnMapping mapping{.name = std::string(trimmed(halves->name.substr(per_file ? colon + 1 : 0))),
+  ColumnMapping mapping{.name = std::string(trimmed(target.substr(per_file ? colon + 1 : 0))),
                         .source = {}};
-  if (per_file) mapping.file = trimmed(halves->name.substr(0, colon));
+  if (per_file) mapping.file = trimmed(target.substr(0, colon));
   if (mapping.name.empty()) return wrong(text, "the NAME is empty");
   if (per_file && mapping.file.empty()) return wrong(text, "the FILE is empty");
-  if (halves->body.empty()) return wrong(text, "the EXPRESSION is empty");
-  mapping.expression = halves->body;
-  const bool is_scaled = take_body(halves->body, mapping);
+  if (body.empty()) return wrong(text, "the EXPRESSION is empty");
+  mapping.expression = body;
+  const bool is_scaled = take_body(body, mapping);
   if (mapping.scale == 0.0) return wrong(text, "a scale of 0 would make all values the same");
   if (is_scaled) return mapping;
   mapping = {

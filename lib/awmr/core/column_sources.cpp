@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/nearest.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/text.h"
@@ -14,11 +15,6 @@ namespace awmr {
 namespace {
 
 using Header = std::span<const std::string>;
-
-/// True if the header has a column of this name.
-bool stands(const std::string& name, Header header) {
-  return std::find(header.begin(), header.end(), name) != header.end();
-}
 
 /// Lists the names for a message: at most 20 names, followed by the number of those left out.
 std::string listed(Header names) {
@@ -43,11 +39,11 @@ struct Candidate {
 Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, Header header) {
   Candidate candidate{
       .source = {.column = column, .indices = {}, .mapping = &mapping}, .names = {}, .missing = {}};
-  if (!mapping.expression.empty() && stands(mapping.expression, header)) {
+  if (!mapping.expression.empty() && contains(header, mapping.expression)) {
     candidate.names = {mapping.expression};
     return candidate;
   }
-  const bool scaled = !mapping.source.empty() && stands(mapping.source, header);
+  const bool scaled = !mapping.source.empty() && contains(header, mapping.source);
   auto expression = scaled || mapping.expression.empty()
                         ? tl::unexpected(std::string())
                         : ColumnExpression::parse(mapping.expression);
@@ -60,7 +56,7 @@ Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, He
     candidate.source.expression = std::move(*expression);
   }
   for (const std::string& name : candidate.names) {
-    if (!stands(name, header)) candidate.missing.push_back(name);
+    if (!contains(header, name)) candidate.missing.push_back(name);
   }
   return candidate;
 }
@@ -101,7 +97,7 @@ class Search {
   void finish() {
     if (chosen_) {
       use(std::move(chosen_->source), chosen_->names);
-    } else if (stands(column_.name, header_)) {
+    } else if (contains(header_, column_.name)) {
       use({.column = column_, .indices = {}}, {column_.name});
     } else if (column_.name == kTimeName && !absent_ && use_time()) {
       return;

@@ -81,7 +81,7 @@ constexpr std::string_view kPositionName = "column_";
 bool is_position(const std::string& name) {
   if (!name.starts_with(kPositionName) || name.size() == kPositionName.size()) return false;
   const std::string_view digits = std::string_view(name).substr(kPositionName.size());
-  return std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return std::all_of(digits.begin(), digits.end(), is_digit);
 }
 
 bool is_number(const CsvCell& cell, bool may_have_comma) {

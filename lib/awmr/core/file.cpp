@@ -122,17 +122,12 @@ Status check_read_back(const fs::path& path, std::string_view bytes, const ReadB
       path.string(), first.place, first.message));
 }
 
-enum class PathKind { kNothing, kFile, kDirectory, kOther };
-
-Result<PathKind> kind_of(const fs::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) {
-    if (errno == ENOENT || errno == ENOTDIR) return PathKind::kNothing;
-    return input_error(ErrorCode::kCannotRead, path.string(),
-                       std::string("cannot look up this path: ") + std::strerror(errno));
-  }
-  if (S_ISREG(status.st_mode)) return PathKind::kFile;
-  return S_ISDIR(status.st_mode) ? PathKind::kDirectory : PathKind::kOther;
+Result<fs::file_status> status_of(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::status_known(status)) return status;
+  return input_error(ErrorCode::kCannotRead, path.string(),
+                     "cannot look up this path: " + error.message());
 }
 
 /// The umask of this process, read only once: reading changes it for a moment, which would disturb
@@ -233,20 +228,20 @@ Status check_output(const fs::path& path, std::span<const fs::path> inputs) {
 }
 
 Result<bool> path_exists(const fs::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const PathKind kind, kind_of(path));
-  return kind != PathKind::kNothing;
+  AWMR_ASSIGN_OR_RETURN(const fs::file_status status, status_of(path));
+  return fs::exists(status);
 }
 
 Result<bool> directory_exists(const fs::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const PathKind kind, kind_of(path));
-  return kind == PathKind::kDirectory;
+  AWMR_ASSIGN_OR_RETURN(const fs::file_status status, status_of(path));
+  return fs::is_directory(status);
 }
 
 Result<bool> regular_file_exists(const fs::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const PathKind kind, kind_of(path));
-  if (kind == PathKind::kNothing || kind == PathKind::kFile) return kind == PathKind::kFile;
+  AWMR_ASSIGN_OR_RETURN(const fs::file_status status, status_of(path));
+  if (!fs::exists(status) || fs::is_regular_file(status)) return fs::exists(status);
   return input_error(ErrorCode::kWrongFile, path.string(),
-                     kind == PathKind::kDirectory
+                     fs::is_directory(status)
                          ? "this is a directory, but a file is expected; move it away"
                          : "this is a pipe or a device, but a file is expected; move it away");
 }

@@ -2,7 +2,6 @@
 
 #include <map>
 #include <mutex>
-#include <optional>
 #include <utility>
 
 #include "awmr/core/hash.h"
@@ -11,21 +10,9 @@ namespace awmr {
 namespace {
 
 /// Hash of the bytes last read from each input file, by the path that the user gave.
-class InputHashes {
- public:
-  void put(const std::string& path, std::string sha256) {
-    const std::scoped_lock lock(mutex_);
-    hashes_[path] = std::move(sha256);
-  }
-  std::optional<std::string> find(const std::string& path) {
-    const std::scoped_lock lock(mutex_);
-    const auto found = hashes_.find(path);
-    return found == hashes_.end() ? std::nullopt : std::optional(found->second);
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<std::string, std::string> hashes_;
+struct InputHashes {
+  std::mutex mutex;
+  std::map<std::string, std::string> by_path;
 };
 
 /// A local static, because static initialisers of other files may already read input files.
@@ -38,13 +25,19 @@ InputHashes& input_hashes() {
 
 Result<std::string> read_input(const std::filesystem::path& path, std::size_t max_bytes) {
   AWMR_ASSIGN_OR_RETURN(std::string bytes, read_file(path, max_bytes));
-  input_hashes().put(path.string(), sha256_hex(bytes));
+  std::string hash = sha256_hex(bytes);
+  const std::scoped_lock lock(input_hashes().mutex);
+  input_hashes().by_path[path.string()] = std::move(hash);
   return bytes;
 }
 
 Result<InputFile> input_file(const std::filesystem::path& path) {
-  if (auto hash = input_hashes().find(path.string())) {
-    return InputFile{path.filename().string(), std::move(*hash)};
+  {
+    const std::scoped_lock lock(input_hashes().mutex);
+    const auto found = input_hashes().by_path.find(path.string());
+    if (found != input_hashes().by_path.end()) {
+      return InputFile{path.filename().string(), found->second};
+    }
   }
   AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));
   return InputFile{path.filename().string(), sha256_hex(bytes)};

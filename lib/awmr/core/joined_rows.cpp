@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/raw_table.h"
 
 namespace awmr {
 namespace {
 
-/// For each row, true if it is kept. Two conditions must hold: in this row or above it, each
-/// command (kHeld) has a value; and in this row, at least one column that may have empty cells has
-/// a value.
-std::vector<bool> rows_that_count(const CsvTable& table, const ColumnSources& sources) {
+/// The rows that are kept. Two conditions must hold: in this row or above it, each command (kHeld)
+/// has a value; and in this row, at least one column that may have empty cells has a value.
+std::vector<std::size_t> rows_that_count(const CsvTable& table, const ColumnSources& sources) {
   const std::size_t rows = table.lines.size();
   std::vector<bool> counts(rows, false);
   std::size_t known = 0;
@@ -27,26 +28,16 @@ std::vector<bool> rows_that_count(const CsvTable& table, const ColumnSources& so
     const auto first = std::find(present.begin(), present.end(), true) - present.begin();
     known = std::max(known, static_cast<std::size_t>(first));
   }
-  std::fill_n(counts.begin(), known, false);
-  return counts;
-}
-
-RowLines kept_lines(const RowLines& lines, const std::vector<bool>& kept) {
-  RowLines left;
-  for (std::size_t row = 0; row < kept.size(); ++row) {
-    if (kept[row]) left.push_back(lines[row]);
+  std::vector<std::size_t> kept;
+  for (std::size_t row = known; row < rows; ++row) {
+    if (counts[row]) kept.push_back(row);
   }
-  return left;
+  return kept;
 }
 
 template <class Values>
-void keep(Values& values, const std::vector<bool>& kept) {
-  if (values.empty()) return;
-  std::size_t end = 0;
-  for (std::size_t row = 0; row < kept.size(); ++row) {
-    if (kept[row]) values[end++] = values[row];
-  }
-  values.resize(end);
+void keep(Values& values, const std::vector<std::size_t>& rows) {
+  if (!values.empty()) values = picked(values, rows);
 }
 
 /// Text with the number of values of each column that has empty cells: "heading_deg 120, ...".
@@ -63,9 +54,11 @@ std::string rates_of(const CsvTable& table) {
 }  // namespace
 
 void drop_rows(CsvTable& table, const ColumnSources& sources) {
-  const std::vector<bool> kept = rows_that_count(table, sources);
+  const std::vector<std::size_t> kept = rows_that_count(table, sources);
   const std::size_t before = table.lines.size();
-  table.lines = kept_lines(table.lines, kept);
+  RowLines lines;
+  for (const std::size_t row : kept) lines.push_back(table.lines[row]);
+  table.lines = std::move(lines);
   for (auto& [name, column] : table.columns) {
     keep(column.values, kept);
     keep(column.character, kept);
@@ -83,7 +76,7 @@ void drop_rows(CsvTable& table, const ColumnSources& sources) {
 
 bool is_void(const CsvTable::Column& column) {
   const std::vector<bool>& present = column.present;
-  return !present.empty() && std::find(present.begin(), present.end(), true) == present.end();
+  return !present.empty() && !contains(present, true);
 }
 
 void refuse_void_columns(const CsvTable& table, const ColumnSources& sources,

@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "awmr/core/json.h"
 
@@ -30,10 +28,7 @@ Status check_json_text(std::string_view text, const std::string& file);
 template <class Read>
 Status check_json_object(std::string_view text, const std::string& file, const Read& read) {
   AWMR_ASSIGN_OR_RETURN(const Json document, read_json_text(text, file));
-  std::vector<Fault> faults;
-  JsonObject json(document, file, "", faults);
-  read(json);
-  if (!faults.empty()) return input_errors(std::move(faults));
+  AWMR_RETURN_IF_ERROR(read_json_object(document, file, read));
   return {};
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "awmr/core/containers.h"
+
 namespace awmr {
 namespace {
 
@@ -96,7 +98,7 @@ bool JsonShape::has(std::string_view key) {
 
 void JsonShape::type(std::string_view key, const Json& schema) {
   std::vector<Json>& types = property(key).types;
-  if (std::find(types.begin(), types.end(), schema) == types.end()) types.push_back(schema);
+  if (!contains(types, schema)) types.push_back(schema);
 }
 
 std::size_t JsonShape::choice(std::string_view key, std::span<const std::string> choices) {

@@ -57,14 +57,7 @@ MatrixXd PivotedQr::inverse_information() const {
   const Eigen::Index p = qr_.cols();
   const MatrixXd r_inverse = r().triangularView<Eigen::Upper>().solve(MatrixXd::Identity(p, p));
   const MatrixXd pivoted = r_inverse * r_inverse.transpose();
-  // Undo the column pivoting: Pi M Pi^T with M = `pivoted`. Element (i, j) of M moves to row
-  // pivot(i), column pivot(j).
-  const Eigen::VectorXi& pivot = qr_.colsPermutation().indices();
-  MatrixXd information(p, p);
-  for (Eigen::Index i = 0; i < p; ++i) {
-    for (Eigen::Index j = 0; j < p; ++j) information(pivot(i), pivot(j)) = pivoted(i, j);
-  }
-  return information;
+  return qr_.colsPermutation() * pivoted * qr_.colsPermutation().transpose();
 }
 
 }  // namespace awmr

@@ -20,11 +20,6 @@ constexpr double kSparseShare = 0.25;
 bool is_empty(double value) { return std::isnan(value); }
 bool has_value(double value) { return std::isfinite(value); }
 
-std::size_t count_of_values(const RawColumn& column) {
-  return static_cast<std::size_t>(
-      std::count_if(column.value.begin(), column.value.end(), has_value));
-}
-
 /// True for a command (kHeld) or a measurement (kAbsent), whose cells may be empty in a table with
 /// signals of different rates.
 bool has_own_rate(const ColumnSource& source) {
@@ -94,16 +89,11 @@ void check_value(double value, const ColumnSource& source, std::span<const doubl
 /// the formula is evaluated in the rows that have a value of this column, with the latest values of
 /// the other columns.
 std::size_t fastest(const RawTable& raw, const ColumnSource& source) {
-  std::size_t best = 0;
-  std::size_t most = 0;
-  for (std::size_t i = 0; i < source.indices.size(); ++i) {
-    const std::size_t count = count_of_values(raw.columns[source.indices[i]]);
-    if (count > most) {
-      most = count;
-      best = i;
-    }
-  }
-  return best;
+  const auto count = [&](std::size_t index) {
+    return std::ranges::count_if(raw.columns[index].value, has_value);
+  };
+  const auto best = std::ranges::max_element(source.indices, {}, count);
+  return static_cast<std::size_t>(best - source.indices.begin());
 }
 
 /// Replaces missing values by the previous value of the column, and before the first value by the

@@ -60,10 +60,9 @@ Result<Part> read_part(const ShardKind& kind, const std::filesystem::path& direc
                                    "of job; merge each kind separately",
                                    kind.schema, found));
   }
-  std::vector<Fault> faults;
-  JsonObject json(part.json, place, "", faults);
-  part.origin = read_part(kind, json);
-  if (!faults.empty()) return input_errors(std::move(faults));
+  AWMR_ASSIGN_OR_RETURN(part.origin, read_json_object(part.json, place, [&](JsonObject& json) {
+                          return read_part(kind, json);
+                        }));
   return part;
 }
 
@@ -221,8 +220,9 @@ Status write_part(const ShardKind& kind, const std::filesystem::path& directory,
                                }},
                               {directory / kShardFile, part.shard_json,
                                [&](std::string_view text, const std::string& file) {
-                                 return check_json_object(
-                                     text, file, [&](JsonObject& json) { read_part(kind, json); });
+                                 return check_json_object(text, file, [&](JsonObject& json) {
+                                   return read_part(kind, json);
+                                 });
                                }}};
   AWMR_RETURN_IF_ERROR(make_directory(directory));
   return write_files(files);

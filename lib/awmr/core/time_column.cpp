@@ -9,6 +9,7 @@
 #include <chrono>
 #include <vector>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/name_table.h"
 #include "awmr/core/text.h"
 
@@ -47,10 +48,7 @@ constexpr std::array<Named<double>, 16> kUnits{{{"s", 1.0},
                                                 {"nanoseconds", 1e-9}}};
 
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
-  for (const std::string_view other : words) {
-    if (word == other) return true;
-  }
-  return false;
+  return contains(words, word);
 }
 
 bool is_time_word(std::string_view word) {

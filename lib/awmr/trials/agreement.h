@@ -37,10 +37,9 @@ double rounding_error(double printed, double last_place);
 /// `elapsed_last_place`: last_place() of the times, s.
 double timing_error(double timed, double elapsed_s, double elapsed_last_place);
 
-/// Standard deviation of the error of a time, s. `elapsed_last_place`: last_place() of the times,
-/// s. If this place is above 1 ms, the times are from a stop watch: the error is 0.1 s, from two
-/// presses of 0.1/sqrt(2) s each. If it is 1 ms or less, the times were taken automatically: the
-/// error is that of rounding, elapsed_last_place/sqrt(12).
+/// Standard deviation of the error of a time, s: 0.1 s for a stop watch, from two presses of
+/// 0.1/sqrt(2) s each; elapsed_last_place/sqrt(12) for automatic times. `elapsed_last_place`:
+/// last_place() of the times, s.
 double timing_std_s(double elapsed_last_place);
 
 }  // namespace awmr

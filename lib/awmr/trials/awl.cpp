@@ -159,8 +159,6 @@ void fill_columns(std::string_view bytes, const Layout& layout, const std::vecto
 
 }  // namespace
 
-bool is_awl(std::string_view bytes) { return awl::begins_log(bytes); }
-
 Result<AwlLog> read_awl(std::string_view bytes, const std::string& file) {
   AWMR_ASSIGN_OR_RETURN(const Scan scan, awl::scan_of(bytes, file));
   AwlLog log{.parameters_sha256 = scan.layout.parameters_sha256};

@@ -11,6 +11,7 @@
 #include "awmr/core/json_document.h"
 #include "awmr/core/name_table.h"
 #include "awmr/core/time_column.h"
+#include "awmr/trials/awl.h"
 #include "awmr/trials/awl_row.h"
 #include "byte_reader.h"
 
@@ -28,9 +29,6 @@ const std::string_view kSync(reinterpret_cast<const char*>(kLogSync), sizeof kLo
 
 /// Maximum number of damaged headers in a file. The checksums of more headers would take too long.
 constexpr std::size_t kMaxDamagedHeaders = 1000;
-
-/// The first header of a log begins within this number of bytes.
-constexpr std::size_t kHeaderWithin = 4 * kLogHeaderBytes;
 
 /// True if the name of a column has only letters, digits and _. Other characters could damage the
 /// CSV header that the name goes into.
@@ -191,12 +189,6 @@ void note_end(std::string_view bytes, Scan& scan) {
 
 }  // namespace
 
-const Column* Layout::find(std::string_view name) const {
-  const auto found = std::find_if(columns.begin(), columns.end(),
-                                  [&](const Column& column) { return column.name == name; });
-  return found == columns.end() ? nullptr : &*found;
-}
-
 double value_in(std::string_view row, const Column& column) {
   const std::string_view bytes = row.substr(column.offset);
   switch (column.kind) {
@@ -211,8 +203,8 @@ double value_in(std::string_view row, const Column& column) {
 }
 
 unsigned bits_in(std::string_view row, const Layout& layout, std::string_view name) {
-  const Column* column = layout.find(name);
-  if (column == nullptr || column->kind != Kind::kByte) return 0;
+  const auto column = std::ranges::find(layout.columns, name, &Column::name);
+  if (column == layout.columns.end() || column->kind != Kind::kByte) return 0;
   return number_in<std::uint8_t>(row.substr(column->offset));
 }
 
@@ -253,8 +245,13 @@ double time_of(std::string_view bytes, std::size_t offset, const Layout& layout)
   return value_in(bytes.substr(offset, layout.row_bytes), layout.columns.front());
 }
 
-bool begins_log(std::string_view bytes) {
-  return bytes.substr(0, kHeaderWithin).find(kMagic) != bytes.npos;
+}  // namespace awmr::awl
+
+namespace awmr {
+
+bool is_awl(std::string_view bytes) {
+  constexpr std::size_t kHeaderWithin = 4 * kLogHeaderBytes;
+  return bytes.substr(0, kHeaderWithin).find(awl::kMagic) != bytes.npos;
 }
 
-}  // namespace awmr::awl
+}  // namespace awmr

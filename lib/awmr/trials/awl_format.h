@@ -29,8 +29,6 @@ struct Layout {
   std::vector<Column> columns;  ///< columns in the order of the row; the first is t_s
 
   bool operator==(const Layout&) const = default;
-  /// Returns the column of this name, or null.
-  const Column* find(std::string_view name) const;
 };
 
 /// Returns the scaled value of a column. Precondition: `row` has Layout::row_bytes bytes.
@@ -67,9 +65,6 @@ struct Scan {
   std::vector<Lost> lost = {};
   std::size_t truncated = 0;  ///< length of an incomplete row at the end, bytes
 };
-
-/// See is_awl() in awl.h.
-bool begins_log(std::string_view bytes);
 
 /// Finds all rows by their checksums. Errors (input): those of read_awl() in awl.h.
 Result<Scan> scan_of(std::string_view bytes, const std::string& file);

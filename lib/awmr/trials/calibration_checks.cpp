@@ -38,6 +38,10 @@ std::vector<LogWindow> calibration_windows(const DrivingLog& log, double count =
   return evidence_rows(log, std::clamp(duration_s / count, kShortest_s, kLongest_s));
 }
 
+bool has_all(const DrivingLog& log, std::initializer_list<LogChannel> channels) {
+  return std::ranges::all_of(channels, [&](LogChannel c) { return log[c].has_value(); });
+}
+
 struct Regression {
   Eigen::VectorXd coefficients;
   Eigen::VectorXd std_errors;
@@ -121,10 +125,8 @@ struct CourseFit {
 /// Fits the complex factor k between measured and integrated displacement (calibration_checks.h).
 /// `heading_factor` multiplies the headings, to test another scale of the heading.
 std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor = 1.0) {
-  for (const LogChannel channel :
-       {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed, LogChannel::kHeading}) {
-    if (!log[channel]) return std::nullopt;
-  }
+  using enum LogChannel;
+  if (!has_all(log, {kX, kY, kSpeed, kHeading})) return std::nullopt;
   const std::vector<LogWindow> windows = calibration_windows(log);
   if (windows.size() < kMinWindows) return std::nullopt;
   std::vector<double> psi = log[LogChannel::kHeading]->value;
@@ -155,10 +157,8 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
 /// Ratio s of the position's scale to the speed's scale, for a log without heading
 /// (calibration_checks.h).
 std::optional<Calibration> distance_scale(const DrivingLog& log) {
-  for (const LogChannel channel :
-       {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed, LogChannel::kYawRate}) {
-    if (!log[channel]) return std::nullopt;
-  }
+  using enum LogChannel;
+  if (!has_all(log, {kX, kY, kSpeed, kYawRate})) return std::nullopt;
   const std::vector<LogWindow> windows = calibration_windows(log);
   if (windows.size() < kMinWindows) return std::nullopt;
   const std::vector<double> psi = integrated_rate(log);
@@ -209,9 +209,7 @@ std::optional<Calibration> course_over_heading(const DrivingLog& log) {
   // noise makes their direction uncertain.
   constexpr double kMoving = 0.3;
   constexpr double kWindows = 60.0;
-  for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed}) {
-    if (!log[channel]) return std::nullopt;
-  }
+  if (!has_all(log, {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed})) return std::nullopt;
   const std::vector<double> psi = headings_of(log);
   if (psi.empty()) return std::nullopt;
   const std::vector<LogWindow> windows = calibration_windows(log, kWindows);

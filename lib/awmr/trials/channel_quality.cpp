@@ -1,7 +1,6 @@
 #include "awmr/trials/channel_quality.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -106,10 +105,8 @@ std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
 std::vector<double> off_median(std::span<const double> value) {
   std::vector<double> off(value.size(), 0.0);
   for (std::size_t k = 2; k + 2 < value.size(); ++k) {
-    std::array<double, 5> five{};
-    std::copy_n(value.begin() + static_cast<std::ptrdiff_t>(k - 2), 5, five.begin());
-    std::nth_element(five.begin(), five.begin() + 2, five.end());
-    off[k] = value[k] - five[2];
+    const std::span<const double> five = value.subspan(k - 2, 5);
+    off[k] = value[k] - median({five.begin(), five.end()});
   }
   return off;
 }
@@ -279,14 +276,12 @@ struct Levels {
 Levels levels_of(std::vector<double> value, double rest) {
   Levels levels;
   std::sort(value.begin(), value.end());
-  for (std::size_t i = 0; i < value.size();) {
-    std::size_t end = i;
-    while (end < value.size() && value[end] == value[i]) ++end;
+  for (const RowSpan& run : equal_runs(value)) {
+    const double level = value[run.begin];
     ++levels.count;
-    if (value[i] != value.front() && value[i] != value.back() && std::abs(value[i]) > rest) {
-      levels.most_elsewhere = std::max(levels.most_elsewhere, end - i);
+    if (level != value.front() && level != value.back() && std::abs(level) > rest) {
+      levels.most_elsewhere = std::max(levels.most_elsewhere, run.end - run.begin);
     }
-    i = end;
   }
   return levels;
 }
@@ -405,6 +400,7 @@ std::size_t end_of_rest(std::span<const double> t_s, std::span<const double> act
 
 void leave_out_rest(std::span<const double> t_s, std::span<const double> value,
                     std::span<const double> activity, ChannelQuality& quality) {
+  constexpr std::size_t kRestRows = 10;
   constexpr std::size_t kFirst = 3;
   constexpr double kEvery_s = 1.0;
   if (!is_on_coarse_grid(value)) return;

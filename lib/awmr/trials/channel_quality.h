@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "awmr/trials/log.h"
+
 namespace awmr {
 
 /// Reason why a sensor repeats its values.
@@ -13,12 +15,6 @@ enum class Repeats {
   kNone,    ///< neither slow nor coarse: repeated values are measurements, too
   kSlow,    ///< sensor slower than the log: values are repeated until the next reading
   kCoarse,  ///< coarse resolution: the value changes only when the signal reaches the next step
-};
-
-/// Rows [begin, end).
-struct RowSpan {
-  std::size_t begin = 0;
-  std::size_t end = 0;
 };
 
 struct ChannelQuality {
@@ -62,13 +58,12 @@ ChannelQuality channel_quality(std::span<const double> t_s, std::span<const doub
 /// Marks most readings of an encoder at rest as no measurements: a speed or yaw rate from counts is
 /// then exactly 0 in each row. As long as the count does not change, its rounding error does not
 /// change either, so these readings are not independent. A fit with differenced noise would take
-/// the position at which the vehicle stopped as measured many times. Of at least kRestRows zeros in
+/// the position at which the vehicle stopped as measured many times. Of at least ten zeros in
 /// a row, these stay measurements: the first three, one per second, and those at the end, in which
 /// the vehicle may move again by less than a step. The end begins with the last change of the
 /// command `activity`, but at most 0.3 s before the next other value. Changes nothing unless all
 /// values are multiples of a resolution of at least 1 % of the largest value.
 void leave_out_rest(std::span<const double> t_s, std::span<const double> value,
                     std::span<const double> activity, ChannelQuality& quality);
-inline constexpr std::size_t kRestRows = 10;
 
 }  // namespace awmr

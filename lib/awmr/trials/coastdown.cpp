@@ -3,6 +3,7 @@
 #include "agreement.h"
 #include "awmr/core/csv.h"
 #include "awmr/core/option_text.h"
+#include "awmr/trials/trial_columns.h"
 #include "read_table.h"
 #include "repeated_rows.h"
 #include "rest_limits.h"
@@ -177,7 +178,8 @@ std::vector<CoastCurve> read_curves(TrialReader& reader, std::vector<Finding>& f
 
 Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const TrialOptions& options,
                                     std::vector<Finding>& findings) {
-  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, TrialKind::kCoastdown, options));
+  AWMR_ASSIGN_OR_RETURN(CsvTable table,
+                        read_table(path, columns_of(TrialKind::kCoastdown), options));
   TrialReader reader(std::move(table), options);
   check_coastdown_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));

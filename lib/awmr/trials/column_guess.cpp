@@ -353,14 +353,12 @@ std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample&
 std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind,
                                        std::optional<double> track_m) {
   std::vector<ColumnGuess> all;
-  const auto has = [&](std::string_view name) {
-    return std::find(sample.names.begin(), sample.names.end(), name) != sample.names.end();
-  };
+  // Among coast-down files, only a table of speed bins (column from_mps) needs elapsed_s.
+  const bool has_no_bins =
+      kind == TrialKind::kCoastdown && !contains(sample.names, std::string_view("from_mps"));
   for (const CsvColumn& column : columns_of(kind)) {
-    // Among coast-down files, only a table of speed bins (column from_mps) needs elapsed_s.
-    if (kind == TrialKind::kCoastdown && column.name == "elapsed_s" && !has("from_mps")) continue;
-    const std::vector<ColumnGuess> guesses = guesses_of(column.name, sample, kind, track_m);
-    append(all, guesses);
+    if (has_no_bins && column.name == "elapsed_s") continue;
+    append(all, guesses_of(column.name, sample, kind, track_m));
   }
   if (kind == TrialKind::kLog) withdraw_constants(sample, all);
   for (auto begin = all.begin(); begin != all.end();) {

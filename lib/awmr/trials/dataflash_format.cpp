@@ -45,13 +45,6 @@ constexpr std::array<FieldKind, 21> kKinds{number_kind<std::int8_t>('b'),
                                            skipped('Z', 64),
                                            skipped('g', 2)};
 
-const FieldKind* kind_of(char character) {
-  for (const FieldKind& kind : kKinds) {
-    if (kind.character == character) return &kind;
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 std::string text_of(std::string_view bytes) {
@@ -82,8 +75,8 @@ tl::expected<Format, std::string> format_of(std::string_view bytes) {
   }
   std::size_t end = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const FieldKind* kind = kind_of(characters[i]);
-    if (kind == nullptr) {
+    const auto* kind = std::ranges::find(kKinds, characters[i], &FieldKind::character);
+    if (kind == kKinds.end()) {
       return tl::unexpected(fmt::format("{} has a field of the unknown kind '{}'", shown,
                                         printable(characters.substr(i, 1))));
     }

@@ -1,18 +1,18 @@
 #include "even_times.h"
 
 #include <cstddef>
-#include <utility>
-#include <vector>
 
 #include "awmr/core/sample_quantile.h"
 
 namespace awmr {
 
-double median_step_of(std::span<const double> t_s) {
-  std::vector<double> gaps_s;
-  for (std::size_t i = 1; i < t_s.size(); ++i) gaps_s.push_back(t_s[i] - t_s[i - 1]);
-  return median(std::move(gaps_s));
+std::vector<double> steps_of(std::span<const double> t_s) {
+  std::vector<double> steps_s;
+  for (std::size_t i = 1; i < t_s.size(); ++i) steps_s.push_back(t_s[i] - t_s[i - 1]);
+  return steps_s;
 }
+
+double median_step_of(std::span<const double> t_s) { return median(steps_of(t_s)); }
 
 EvenTimes even_times(std::span<const double> t_s, std::span<const double> numbers) {
   const auto n = static_cast<double>(t_s.size());

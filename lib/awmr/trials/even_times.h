@@ -2,10 +2,13 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 namespace awmr {
 
-/// Median of the steps between successive times.
+/// Steps between successive times.
+std::vector<double> steps_of(std::span<const double> t_s);
+/// Median of these steps.
 double median_step_of(std::span<const double> t_s);
 
 /// The times t_n = t_0 + n h.

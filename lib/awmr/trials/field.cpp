@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "awmr/core/csv.h"
@@ -20,20 +21,15 @@ std::vector<double> values_of(const CsvTable& table, std::string_view name) {
   return {column.begin(), column.end()};
 }
 
-const std::vector<CsvColumn>& field_columns() {
-  static const std::vector<CsvColumn> columns{
-      {"t_s"}, {"field_ahead"}, {"field_left"}, {"yaw_rate_radps", false}};
-  return columns;
-}
+const CsvColumn kFieldColumns[] = {
+    {"t_s"}, {"field_ahead"}, {"field_left"}, {"yaw_rate_radps", false}};
 
 /// Checks the column mappings. Errors: a mapping to a column that a field record does not have.
 Status check_names(const std::vector<ColumnMapping>& mappings) {
   std::vector<Fault> faults;
   for (const ColumnMapping& mapping : mappings) {
-    const bool is_known =
-        std::any_of(field_columns().begin(), field_columns().end(),
-                    [&](const CsvColumn& column) { return column.name == mapping.name; });
-    if (is_known) continue;
+    const auto* known = std::ranges::find(kFieldColumns, mapping.name, &CsvColumn::name);
+    if (known != std::end(kFieldColumns)) continue;
     faults.push_back({ErrorCode::kUnknownName,
                       fmt::format("{} {}", option_text("column"), mapping.name),
                       "unknown column; a field record has t_s, field_ahead, field_left and "
@@ -48,7 +44,7 @@ Status check_names(const std::vector<ColumnMapping>& mappings) {
 Result<FieldRecord> read_field(const std::filesystem::path& path,
                                const std::vector<ColumnMapping>& mappings) {
   AWMR_RETURN_IF_ERROR(check_names(mappings));
-  AWMR_ASSIGN_OR_RETURN(const CsvTable table, read_csv(path, field_columns(), mappings));
+  AWMR_ASSIGN_OR_RETURN(const CsvTable table, read_csv(path, kFieldColumns, mappings));
   AWMR_RETURN_IF_ERROR(check_mappings({.columns = mappings}, table.mapped, {{path}}));
   FieldRecord record{.file = path.filename().string(),
                      .t_s = values_of(table, "t_s"),

@@ -164,7 +164,7 @@ ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>
 
 std::string remedy_of(const ForceUnits& units, std::span<const UnitFix> unit_fixes,
                       std::span<const ColumnMapping> mappings) {
-  std::string mapped = mapped_by(unit_fixes, mappings, !units.is_clear());
+  std::string mapped = mapped_by(unit_fixes, mappings, units.units.size() > 1);
   if (units.remedy.empty() || mapped.empty()) return mapped;
   return units.remedy + ", " + mapped;
 }

@@ -49,8 +49,6 @@ struct ForceUnits {
   std::vector<ForceUnit> units;
   /// Advice to change vehicle.json instead of the unit; may be empty.
   std::string remedy = {};
-
-  bool is_clear() const { return units.size() == 1; }
 };
 /// Returns the possible units of forces with this range. Precondition: span.largest > F'max.
 ForceUnits force_units(const ForceSpan& span, const Vehicle& vehicle);

@@ -6,6 +6,7 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/core/sample_quantile.h"
+#include "awmr/trials/channel_quality.h"
 #include "even_times.h"
 
 namespace awmr {
@@ -59,9 +60,9 @@ Readings readings_at(const LinedColumn& column, const EvenTimes& even) {
     const bool is_gap = end_s - begin_s > even.step_s;
     const bool is_new = readings.t_s.empty() || at_s - readings.t_s.back() > 0.5 * even.step_s;
     if (is_gap || at_s > end_s + slack_s || !is_new) continue;
-    readings.t_s.push_back(std::min(at_s, end_s));
-    readings.value.push_back(value_at(column, readings.t_s.back(), at_s - even.step_s - slack_s,
-                                      at_s + even.step_s + slack_s));
+    const double reading_s = std::min(at_s, end_s);
+    readings.add(reading_s, value_at(column, reading_s, at_s - even.step_s - slack_s,
+                                     at_s + even.step_s + slack_s));
   }
   return readings;
 }
@@ -74,10 +75,7 @@ Readings without_bridged_gaps(const Readings& all, double tolerance) {
     return off_chord(all.t_s, all.value, k) <= 2.0 * tolerance;
   };
   Readings kept;
-  const auto keep = [&](std::size_t k) {
-    kept.t_s.push_back(all.t_s[k]);
-    kept.value.push_back(all.value[k]);
-  };
+  const auto keep = [&](std::size_t k) { kept.add(all.t_s[k], all.value[k]); };
   for (std::size_t k = 0; k < all.t_s.size();) {
     keep(k);
     std::size_t end = k + 1;  // last reading of the line that begins with k
@@ -128,8 +126,7 @@ Readings values_at(const LinedColumn& column, std::span<const double> readings_s
     const double previous_s = k > 0 ? readings_s[k - 1] - slack_s : column.t_s.front();
     const double next_s =
         k + 1 < readings_s.size() ? readings_s[k + 1] + slack_s : column.t_s.back();
-    readings.t_s.push_back(readings_s[k]);
-    readings.value.push_back(value_at(column, readings_s[k], previous_s, next_s));
+    readings.add(readings_s[k], value_at(column, readings_s[k], previous_s, next_s));
   }
   return readings;
 }
@@ -206,8 +203,8 @@ std::optional<Readings> changing_at(std::span<const double> readings_s, std::spa
   for (std::size_t row = 1, next = 0; row < value.size(); ++row) {
     const std::size_t before = next;
     while (next < readings_s.size() && readings_s[next] <= t_s[row] + slack_s) {
-      readings.t_s.push_back(readings_s[next++]);
-      readings.value.push_back(value[readings.t_s.back() > t_s[row - 1] + slack_s ? row : row - 1]);
+      const double at_s = readings_s[next++];
+      readings.add(at_s, value[at_s > t_s[row - 1] + slack_s ? row : row - 1]);
     }
     if (value[row] == value[row - 1]) continue;
     if (next == before) return std::nullopt;  // the change is not in the first row after a reading
@@ -220,8 +217,7 @@ double smallest_step(std::span<const double> value) {
   constexpr double kArithmetic = 1e-12;
   std::vector<double> sorted(value.begin(), value.end());
   std::ranges::sort(sorted);
-  double largest = 0.0;
-  for (const double one : sorted) largest = std::max(largest, std::abs(one));
+  const double largest = largest_size(value);
   double smallest = 0.0;
   const auto consider = [&](double step) {
     if (step > kArithmetic * largest && (smallest == 0.0 || step < smallest)) smallest = step;

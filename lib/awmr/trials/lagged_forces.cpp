@@ -20,7 +20,7 @@ Decay decay(double h_s, double lag_s) {
 
 }  // namespace
 
-RowRange rows_with_effect(const DrivingLog& log, RowRange rows, double memory_s) {
+RowSpan rows_with_effect(const DrivingLog& log, RowSpan rows, double memory_s) {
   constexpr double kLongestDelay_s = 1.0;  // positive or negative
   const double from_s = log.t_s[rows.begin] - memory_s - kLongestDelay_s;
   const double until_s = log.t_s[rows.end - 1] + kLongestDelay_s;
@@ -31,7 +31,7 @@ RowRange rows_with_effect(const DrivingLog& log, RowRange rows, double memory_s)
 
 LaggedForces::LaggedForces(const DrivingLog& log, std::size_t begin, std::size_t end, double lag_s)
     : log_(&log), lag_s_(lag_s) {
-  const RowRange rows = rows_with_effect(log, {begin, end}, kForgottenLags * lag_s);
+  const RowSpan rows = rows_with_effect(log, {begin, end}, kForgottenLags * lag_s);
   first_row_ = rows.begin;
   left_ = side(log.force_left, rows.end);
   right_ = side(log.force_right, rows.end);

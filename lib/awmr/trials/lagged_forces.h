@@ -12,15 +12,9 @@ namespace awmr {
 /// below rounding.
 inline constexpr double kForgottenLags = 40.0;
 
-/// Rows [begin, end) of a log.
-struct RowRange {
-  std::size_t begin;
-  std::size_t end;
-};
-
 /// Rows whose commands affect the forces in `rows`, if a command has an effect for `memory_s` and
 /// delays of the commands are -1 to 1 s.
-RowRange rows_with_effect(const DrivingLog& log, RowRange rows, double memory_s);
+RowSpan rows_with_effect(const DrivingLog& log, RowSpan rows, double memory_s);
 
 /// Forces F' of motors with the time constant T (`lag_s`), and their derivatives with respect to T.
 /// For a constant command c:

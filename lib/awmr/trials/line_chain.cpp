@@ -32,8 +32,7 @@ void add_corner_after(const LinedColumn& column, std::size_t row, Readings& corn
   }
   const double from_left = column.value[row] + before * (at_s - begin_s);
   const double from_right = column.value[row + 1] + after * (at_s - end_s);
-  corners.t_s.push_back(at_s);
-  corners.value.push_back(0.5 * (from_left + from_right));
+  corners.add(at_s, 0.5 * (from_left + from_right));
 }
 
 /// Adds the corners between two lines: one that ends with the row `end`, and the next one that
@@ -41,8 +40,7 @@ void add_corner_after(const LinedColumn& column, std::size_t row, Readings& corn
 void add_corners(const LinedColumn& column, std::size_t end, std::size_t begin, Readings& corners) {
   constexpr std::size_t kMaxRows = 15;
   if (begin == end) {
-    corners.t_s.push_back(column.t_s[end]);
-    corners.value.push_back(column.value[end]);
+    corners.add(column.t_s[end], column.value[end]);
   } else if ((begin - end) % 2 == 1 && begin - end <= kMaxRows) {
     for (std::size_t row = end; row < begin; row += 2) add_corner_after(column, row, corners);
   }
@@ -119,8 +117,7 @@ Readings corners_of(const LinedColumn& column) {
     last_end = i + 1;
   }
   if (corners.t_s.back() < column.t_s.back()) {
-    corners.t_s.push_back(column.t_s.back());
-    corners.value.push_back(column.value.back());
+    corners.add(column.t_s.back(), column.value.back());
   }
   return corners;
 }

@@ -12,6 +12,11 @@ namespace awmr {
 struct Readings {
   std::vector<double> t_s;
   std::vector<double> value;
+
+  void add(double at_s, double reading) {
+    t_s.push_back(at_s);
+    value.push_back(reading);
+  }
 };
 
 /// A column, and how far its rows are off the chord through their neighbours.

@@ -30,7 +30,7 @@ std::optional<Read> keep(Result<Read> read, std::vector<Fault>& faults) {
 void add_coastdown(const std::filesystem::path& path, CoastdownSet set, TrialData& data,
                    std::vector<Fault>& faults) {
   if (const auto* curves = std::get_if<std::vector<CoastCurve>>(&set)) {
-    data.curves.insert(data.curves.end(), curves->begin(), curves->end());
+    append(data.curves, *curves);
   } else if (data.coastdown) {
     faults.push_back({ErrorCode::kGivenTwice, path.string(),
                       "a second file of stop times; put all stop times into one file"});
@@ -51,7 +51,7 @@ void join(std::optional<TrialSet<Row>>& all, TrialSet<Row> found) {
 
 void add_steady_runs(Trials& trials) {
   for (const DrivingLog& log : trials.data.logs) {
-    SteadyRuns runs = steady_runs(log, trials.vehicle, {}, trials.findings);
+    SteadyRuns runs = steady_runs(log, trials.vehicle, trials.findings);
     join(trials.data.surge, std::move(runs.surge));
     join(trials.data.turning, std::move(runs.turning));
   }
@@ -74,12 +74,11 @@ void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
 
 std::vector<std::size_t> mappings_used(const TrialData& data) {
   std::vector<std::size_t> used;
-  const auto add = [&](const std::vector<std::size_t>& more) { append(used, more); };
-  if (data.surge) add(data.surge->mapped);
-  if (data.turning) add(data.turning->mapped);
-  if (data.coastdown) add(data.coastdown->mapped);
-  for (const CoastCurve& curve : data.curves) add(curve.mapped);
-  for (const DrivingLog& log : data.logs) add(log.mapped);
+  if (data.surge) append(used, data.surge->mapped);
+  if (data.turning) append(used, data.turning->mapped);
+  if (data.coastdown) append(used, data.coastdown->mapped);
+  for (const CoastCurve& curve : data.curves) append(used, curve.mapped);
+  for (const DrivingLog& log : data.logs) append(used, log.mapped);
   return used;
 }
 
@@ -167,8 +166,7 @@ Result<Trials> load_trials(Vehicle vehicle, const TrialFiles& files) {
   check_repeated_curves(data.curves, faults);
   const std::vector<std::filesystem::path> paths = paths_as_read(files);
   if (!faults.empty()) {
-    const std::vector<Fault> unusable = unusable_mappings(options, paths);
-    append(faults, unusable);
+    append(faults, unusable_mappings(options, paths));
     return input_errors(std::move(faults));
   }
   AWMR_RETURN_IF_ERROR(check_mappings(options, mappings_used(data), paths));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/csv.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/sample_quantile.h"
@@ -146,7 +147,7 @@ std::vector<RowSpan> used_parts(const TrialReader& reader, RowSpan run,
 void keep_used(TrialReader& reader, const TrialOptions& options, std::vector<RowSpan>& runs) {
   std::vector<RowSpan> parts;
   for (const RowSpan run : runs) {
-    for (const RowSpan part : used_parts(reader, run, options)) parts.push_back(part);
+    append(parts, used_parts(reader, run, options));
   }
   if (parts.empty()) {
     const std::span<const double> t_s = reader.table().column("t_s");
@@ -233,8 +234,7 @@ const ChannelInfo& info(LogChannel channel) {
 
 double DrivingLog::median_step_s() const {
   if (!joined) return median_step_of(t_s);
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < t_s.size(); ++i) steps.push_back(t_s[i] - t_s[i - 1]);
+  std::vector<double> steps = steps_of(t_s);
   // The rows of two signals with about the same rate come in close pairs. The short steps within
   // the pairs hardly change this median, because each step is weighted with its length.
   std::sort(steps.begin(), steps.end());
@@ -386,7 +386,7 @@ DrivingLog log_of(TrialReader& reader, RowSpan rows, std::span<const LogChannel>
 Result<std::vector<DrivingLog>> read_logs(const std::filesystem::path& path,
                                           const TrialOptions& options,
                                           std::vector<Finding>& findings) {
-  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, TrialKind::kLog, options));
+  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, columns_of(TrialKind::kLog), options));
   TrialReader reader(std::move(table), options);
   check_log_columns(reader, options.has_steering);
   std::vector<RowSpan> runs = runs_of(reader);

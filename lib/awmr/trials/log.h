@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,6 +40,12 @@ struct Measured {
   /// True: the sensor is slower than the log, which repeats its last value.
   bool held = false;
   double quantum = 0.0;  ///< resolution of a coarse sensor, SI; 0: not detected
+};
+
+/// Rows [begin, end).
+struct RowSpan {
+  std::size_t begin = 0;
+  std::size_t end = 0;
 };
 
 /// One run of a driving log. Every vector has one entry per row.

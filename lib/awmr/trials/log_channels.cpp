@@ -10,6 +10,7 @@
 #include "awmr/core/containers.h"
 #include "awmr/core/sample_quantile.h"
 #include "awmr/trials/channel_quality.h"
+#include "even_times.h"
 
 namespace awmr {
 namespace {
@@ -93,8 +94,7 @@ ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel chann
 bool are_regular(const std::vector<double>& t_s, const std::vector<std::size_t>& rows) {
   constexpr double kAbout = 1.5;  // time spans that differ by less than this factor count as equal
   constexpr double kMost = 0.8;
-  std::vector<double> gaps_s;
-  for (std::size_t i = 1; i < rows.size(); ++i) gaps_s.push_back(t_s[rows[i]] - t_s[rows[i - 1]]);
+  const std::vector<double> gaps_s = steps_of(picked(t_s, rows));
   if (gaps_s.empty()) return true;
   const double usual_s = median(gaps_s);
   const auto usual = std::ranges::count_if(

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/option_text.h"
 #include "awmr/trials/calibration_checks.h"
 #include "awmr/trials/log_evidence.h"
@@ -15,7 +16,7 @@ std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& 
   std::vector<Contradiction> found = unit_contradictions(evidence);
   // If the unit of t_s is wrong, the windows are not one second long, and no sign can be checked.
   if (!found.empty() && found.front().column == "t_s") return found;
-  for (Contradiction& one : sign_contradictions(evidence)) found.push_back(std::move(one));
+  append(found, sign_contradictions(evidence));
   // Positions in a wrong unit can look like a jump, so jumps count only if there is no other
   // contradiction.
   if (found.empty()) {
@@ -43,9 +44,7 @@ Status check_consistency(const DrivingLog& log, const std::string& place, const 
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   if (!found.empty()) return {};
-  for (Finding& finding : calibration_findings(log, options.columns)) {
-    findings.push_back(std::move(finding));
-  }
+  append(findings, calibration_findings(log, options.columns));
   if (const auto bias = gyro_bias_radps(log)) {
     findings.push_back(
         {log.file, 0, Severity::kWarning, "gyro-bias",

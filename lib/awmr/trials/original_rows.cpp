@@ -30,12 +30,6 @@ struct CommandColumn {
 /// message share their times.
 using ChannelReadings = std::vector<std::optional<Readings>>;
 
-/// Readings of the interpolated columns of a log.
-struct Recovered {
-  ChannelReadings channels;
-  std::vector<CommandColumn> commands;
-};
-
 /// True if the column can be recovered: it has a value in every row. A steering angle without a
 /// command is the input of the model, which is needed in every row.
 bool is_recoverable(const DrivingLog& log, const ChannelColumn& column) {
@@ -46,7 +40,6 @@ bool is_recoverable(const DrivingLog& log, const ChannelColumn& column) {
 /// Readings of the column at the times of another column that was recovered.
 std::optional<Readings> shared_readings(const DrivingLog& log, const ChannelColumn& column,
                                         const ChannelReadings& others) {
-  if (!is_recoverable(log, column)) return std::nullopt;
   for (const std::optional<Readings>& other : others) {
     if (!other) continue;
     if (auto same = interpolated_between(other->t_s, log.t_s, column.value, column.rounding)) {
@@ -56,20 +49,18 @@ std::optional<Readings> shared_readings(const DrivingLog& log, const ChannelColu
   return std::nullopt;
 }
 
-std::optional<Readings> own_readings(const DrivingLog& log, const ChannelColumn& column) {
-  if (!is_recoverable(log, column)) return std::nullopt;
-  return interpolated_readings(log.t_s, column.value, column.rounding);
-}
-
 ChannelReadings recovered_channels(const DrivingLog& log,
                                    const std::vector<ChannelColumn>& columns) {
   ChannelReadings channels(columns.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (!is_recoverable(log, columns[i])) continue;
     channels[i] = shared_readings(log, columns[i], channels);
-    if (!channels[i]) channels[i] = own_readings(log, columns[i]);
+    if (channels[i]) continue;
+    channels[i] = interpolated_readings(log.t_s, columns[i].value, columns[i].rounding);
   }
   for (std::size_t i = 0; i < columns.size(); ++i) {  // later columns can help earlier ones
-    if (!channels[i]) channels[i] = shared_readings(log, columns[i], channels);
+    if (channels[i] || !is_recoverable(log, columns[i])) continue;
+    channels[i] = shared_readings(log, columns[i], channels);
   }
   return channels;
 }
@@ -99,14 +90,15 @@ std::vector<CommandColumn> recovered_commands(DrivingLog& log, const ChannelRead
 
 /// Times of the new rows, s, ascending. Times closer than `same_s` are one row.
 std::vector<double> times_of_rows(const DrivingLog& log, const std::vector<ChannelColumn>& columns,
-                                  const Recovered& recovered, double same_s) {
+                                  const ChannelReadings& channels,
+                                  const std::vector<CommandColumn>& commands, double same_s) {
   std::vector<bool> stays(log.rows(), false);
   stays.front() = true;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (recovered.channels[i]) continue;
+    if (channels[i]) continue;
     for (const std::size_t row : columns[i].present) stays[row] = true;
   }
-  for (const CommandColumn& command : recovered.commands) {
+  for (const CommandColumn& command : commands) {
     if (command.readings) continue;
     for (std::size_t row = 1; row < log.rows(); ++row) {
       if ((*command.value)[row] != (*command.value)[row - 1]) stays[row] = true;
@@ -116,8 +108,8 @@ std::vector<double> times_of_rows(const DrivingLog& log, const std::vector<Chann
   for (std::size_t row = 0; row < log.rows(); ++row) {
     if (stays[row]) all_s.push_back(log.t_s[row]);
   }
-  for (const std::optional<Readings>& readings : recovered.channels) {
-    if (readings) all_s.insert(all_s.end(), readings->t_s.begin(), readings->t_s.end());
+  for (const std::optional<Readings>& readings : channels) {
+    if (readings) append(all_s, readings->t_s);
   }
   std::sort(all_s.begin(), all_s.end());
   const auto is_same = [same_s](double a, double b) { return b - a < same_s; };
@@ -159,15 +151,15 @@ std::vector<std::size_t> rows_with_readings(const std::vector<std::size_t>& coun
 
 /// The note `interpolated-readings`.
 Finding note_of(const DrivingLog& log, const std::vector<ChannelColumn>& columns,
-                const Recovered& recovered) {
+                const ChannelReadings& channels, const std::vector<CommandColumn>& commands) {
   std::vector<std::string> names;
   const auto add = [&](std::string_view name, const Readings& readings) {
     names.push_back(fmt::format("{} ({:.3g} Hz)", name, 1.0 / median_step_of(readings.t_s)));
   };
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (recovered.channels[i]) add(info(columns[i].channel).column, *recovered.channels[i]);
+    if (channels[i]) add(info(columns[i].channel).column, *channels[i]);
   }
-  for (const CommandColumn& command : recovered.commands) {
+  for (const CommandColumn& command : commands) {
     if (command.is_interpolated) add(command.name, *command.readings);
   }
   return {log.file, 0, Severity::kNote, "interpolated-readings",
@@ -183,17 +175,15 @@ Finding note_of(const DrivingLog& log, const std::vector<ChannelColumn>& columns
 void recover_original_rows(DrivingLog& log, std::vector<ChannelColumn>& columns,
                            std::vector<Finding>& findings) {
   if (log.joined) return;
-  Recovered recovered{recovered_channels(log, columns), {}};
-  if (std::ranges::none_of(recovered.channels, [](const auto& one) { return one.has_value(); })) {
-    return;
-  }
-  recovered.commands = recovered_commands(log, recovered.channels);
-  findings.push_back(note_of(log, columns, recovered));
+  const ChannelReadings channels = recovered_channels(log, columns);
+  if (std::ranges::none_of(channels, [](const auto& one) { return one.has_value(); })) return;
+  const std::vector<CommandColumn> commands = recovered_commands(log, channels);
+  findings.push_back(note_of(log, columns, channels, commands));
   const double same_s = 1e-3 * log.median_step_s();
-  const std::vector<double> t_s = times_of_rows(log, columns, recovered, same_s);
+  const std::vector<double> t_s = times_of_rows(log, columns, channels, commands, same_s);
   std::vector<std::size_t> old_row = counts_until(t_s, log.t_s, same_s);
   for (std::size_t& row : old_row) row -= std::min<std::size_t>(row, 1);  // the last row until then
-  for (CommandColumn& command : recovered.commands) {
+  for (const CommandColumn& command : commands) {
     std::vector<double> of_file = picked(*command.value, old_row);
     const std::optional<Readings>& readings = command.readings;
     *command.value =
@@ -202,7 +192,7 @@ void recover_original_rows(DrivingLog& log, std::vector<ChannelColumn>& columns,
   }
   for (std::size_t i = 0; i < columns.size(); ++i) {
     ChannelColumn& column = columns[i];
-    const std::optional<Readings>& readings = recovered.channels[i];
+    const std::optional<Readings>& readings = channels[i];
     const std::vector<std::size_t> counts =
         counts_until(t_s, readings ? readings->t_s : picked(log.t_s, column.present), same_s);
     std::vector<double> of_file = picked(column.value, old_row);

@@ -14,7 +14,6 @@
 #include "awmr/core/time_column.h"
 #include "awmr/trials/awl.h"
 #include "awmr/trials/log_files.h"
-#include "awmr/trials/trial_columns.h"
 
 namespace awmr {
 namespace {
@@ -81,8 +80,7 @@ void join(Signals part, Signals& all) {
     }
     append(known->time_ns, topic.time_ns);
     for (std::size_t c = 0; c < topic.values.size(); ++c) {
-      known->values[c].insert(known->values[c].end(), topic.values[c].begin(),
-                              topic.values[c].end());
+      append(known->values[c], topic.values[c]);
     }
   }
   append(all.notes, part.notes);
@@ -113,10 +111,6 @@ std::optional<Result<ColumnLog>> read_columns(std::string_view bytes, const std:
   if (is_awl(bytes)) return columns_of_awl(bytes, file);
   if (is_sysid(bytes)) return read_sysid(bytes, file);
   return std::nullopt;
-}
-
-Result<CsvTable> read_table(const fs::path& path, TrialKind kind, const TrialOptions& options) {
-  return read_table(path, columns_of(kind), options);
 }
 
 Result<CsvTable> read_table(const fs::path& path, std::span<const CsvColumn> columns,

@@ -28,8 +28,5 @@ std::optional<Result<ColumnLog>> read_columns(std::string_view bytes, const std:
 /// the readers of these formats.
 Result<CsvTable> read_table(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                             const TrialOptions& options);
-/// Like read_table() above, but reads the columns of this kind of trial: columns_of(kind).
-Result<CsvTable> read_table(const std::filesystem::path& path, TrialKind kind,
-                            const TrialOptions& options);
 
 }  // namespace awmr

@@ -62,13 +62,6 @@ const std::array<MessageType, 7>& types() {
   return kTypes;
 }
 
-const MessageType* type_of(std::string_view name) {
-  for (const MessageType& type : types()) {
-    if (type.name == name) return &type;
-  }
-  return nullptr;
-}
-
 /// Reads a message in CDR (the serialisation of ROS 2). Numbers are aligned to their size. Offsets
 /// count from the end of the encoding header, which has 4 bytes.
 class CdrReader {
@@ -130,8 +123,8 @@ bool take(const Piece& piece, CdrReader& reader, std::vector<double>& values) {
 }  // namespace
 
 std::optional<std::vector<std::string>> ros_fields(std::string_view type) {
-  const MessageType* found = type_of(type);
-  if (found == nullptr) return std::nullopt;
+  const auto found = std::ranges::find(types(), type, &MessageType::name);
+  if (found == types().end()) return std::nullopt;
   std::vector<std::string> names;
   for (const Piece& piece : found->pieces) {
     const std::string name(piece.name);
@@ -146,7 +139,7 @@ std::optional<std::vector<double>> ros_values(std::string_view type, std::string
   if (!is_plain_cdr) return std::nullopt;
   CdrReader reader(cdr);
   std::vector<double> values;
-  for (const Piece& piece : type_of(type)->pieces) {
+  for (const Piece& piece : std::ranges::find(types(), type, &MessageType::name)->pieces) {
     if (!take(piece, reader, values)) return std::nullopt;
   }
   return values;

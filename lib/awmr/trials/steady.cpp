@@ -12,12 +12,17 @@
 namespace awmr {
 namespace {
 
+/// Largest accepted change of a constant command, in F' or rad.
+constexpr double kSameCommand = 1e-3;
+/// Largest steering angle of a surge run, rad: 0.5 deg.
+constexpr double kStraight_rad = 0.0087;
+
 /// Steering angle of each row, rad: the measured one, or the command if none was measured.
 const std::vector<double>& steering_angle_of(const DrivingLog& log) {
   return log[LogChannel::kSteering] ? log[LogChannel::kSteering]->value : *log.steering_command_rad;
 }
 
-std::vector<RowSpan> constant_commands(const DrivingLog& log, double same) {
+std::vector<RowSpan> constant_commands(const DrivingLog& log) {
   // Takes the steering command if there is one, because noise changes a measured angle in every
   // row.
   const std::vector<double>& steering = log.driving_steering_rad();
@@ -26,7 +31,7 @@ std::vector<RowSpan> constant_commands(const DrivingLog& log, double same) {
   RowSpan stretch{0, 1};
   for (std::size_t i = 1; i <= log.rows(); ++i) {
     const auto moved = [&](const std::vector<double>& signal) {
-      return std::abs(signal[i] - signal[stretch.begin]) > same;
+      return std::abs(signal[i] - signal[stretch.begin]) > kSameCommand;
     };
     if (i < log.rows() && !moved(log.force_left) && !moved(log.force_right) && !moved(steering) &&
         log.t_s[i] - log.t_s[i - 1] <= gap_s) {
@@ -89,7 +94,8 @@ bool is_steady(const Line& line, double drift) {
 /// straight line fitted to the rate in the remainder. Empty if no remainder is steady.
 std::optional<Line> steady_rest(const DrivingLog& log, const Measured& rate, const SteadyRule& rule,
                                 RowSpan& stretch) {
-  for (double from_s = log.t_s[stretch.begin] + rule.settling_s;; from_s += rule.later_s) {
+  constexpr double kLater_s = 0.25;
+  for (double from_s = log.t_s[stretch.begin] + rule.settling_s;; from_s += kLater_s) {
     while (stretch.begin < stretch.end && log.t_s[stretch.begin] < from_s) ++stretch.begin;
     if (stretch.begin >= stretch.end ||
         log.t_s[stretch.end - 1] - log.t_s[stretch.begin] < rule.shortest_s) {
@@ -124,16 +130,16 @@ struct SteadyRun {
 
 /// Returns the steady run in a stretch of constant commands (SteadyRule); empty if there is none.
 std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicle,
-                                    const SteadyRule& rule, RowSpan stretch) {
+                                    RowSpan stretch) {
   const double left = mean_of(log.force_left, stretch);
   const double right = mean_of(log.force_right, stretch);
   const double steering_rad = mean_of(steering_angle_of(log), stretch);
-  const bool uneven = std::abs(left - right) > rule.same;
-  const bool turning = vehicle.has_steering() ? std::abs(steering_rad) > rule.straight_rad : uneven;
+  const bool uneven = std::abs(left - right) > kSameCommand;
+  const bool turning = vehicle.has_steering() ? std::abs(steering_rad) > kStraight_rad : uneven;
   const auto& rate = log[turning ? LogChannel::kYawRate : LogChannel::kSpeed];
   const bool by_sides = turning && !vehicle.has_steering();
   if (!rate || (!by_sides && (!(left > 0.0) || uneven))) return std::nullopt;
-  const auto line = steady_rest(log, *rate, rule, stretch);
+  const auto line = steady_rest(log, *rate, SteadyRule{}, stretch);
   if (!line) return std::nullopt;
   // A mean rate that does not exceed three standard errors may be 0: the vehicle may be at rest.
   if (!(std::abs(line->mean) > 3.0 * line->mean_error)) return std::nullopt;
@@ -187,12 +193,12 @@ Finding note_of(const SteadyRun& run, const Vehicle& vehicle, const std::string&
 
 }  // namespace
 
-SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const SteadyRule& rule,
+SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle,
                        std::vector<Finding>& findings) {
   SteadyRuns runs;
   runs.surge.file = runs.turning.file = log.file;
-  for (const RowSpan stretch : constant_commands(log, rule.same)) {
-    const auto run = steady_run(log, vehicle, rule, stretch);
+  for (const RowSpan stretch : constant_commands(log)) {
+    const auto run = steady_run(log, vehicle, stretch);
     if (!run) continue;
     if (run->turning) {
       runs.turning.rows.push_back(turning_row(*run, vehicle));
@@ -211,12 +217,12 @@ std::vector<SteadyWheel> steady_wheels(const DrivingLog& log, const Vehicle& veh
   const auto& yaw_rate = log[LogChannel::kYawRate];
   if (!speed) return {};
   std::vector<SteadyWheel> wheels;
-  for (RowSpan stretch : constant_commands(log, rule.same)) {
+  for (RowSpan stretch : constant_commands(log)) {
     const double left = mean_of(log.force_left, stretch);
     const double right = mean_of(log.force_right, stretch);
     const auto u = steady_rest(log, *speed, rule, stretch);
     if (!u) continue;
-    if (std::abs(left - right) <= rule.same) {
+    if (std::abs(left - right) <= kSameCommand) {
       wheels.push_back({0.5 * (left + right), u->mean, u->mean_error});
       continue;
     }

@@ -10,30 +10,24 @@ namespace awmr {
 
 /// Criteria of a steady segment. Its commands are constant, and its rate (the speed of a surge run,
 /// the yaw rate of a turning run) neither rises nor falls:
-///   - force_left, force_right and steering each stay within `same` of their first value;
-///   - the first `settling_s` after a change of command are cut off, then more pieces of `later_s`,
+///   - force_left, force_right and steering each stay within 1e-3 (F' or rad) of their first value;
+///   - the first `settling_s` after a change of command are cut off, then more pieces of 0.25 s,
 ///     until the remainder is steady; a remainder shorter than `shortest_s` is dropped;
 ///   - the remainder is steady if a straight line fitted to its rate (at least five measurements)
 ///     changes from end to end by at most `drift` of the mean rate, or by at most three standard
 ///     errors of that change.
 /// If the vehicle has steering, the forces left and right must be equal and forward; the segment is
-/// a surge run if |steering| <= straight_rad, else a turning run. If it has no steering, the
-/// segment is a turning run if the forces left and right differ by more than `same`. Otherwise it
-/// is a surge run, whose forces must be forward. The mean rate must also exceed three standard
-/// errors and have the direction of the command.
+/// a surge run if |steering| <= 0.5 deg, else a turning run. If it has no steering, the segment is
+/// a turning run if the forces left and right differ by more than 1e-3. Otherwise it is a surge
+/// run, whose forces must be forward. The mean rate must also exceed three standard errors and have
+/// the direction of the command.
 struct SteadyRule {
-  /// Largest accepted change of a constant command, in F' or rad, >= 0; increase it for noisy
-  /// commands.
-  double same = 1e-3;
   /// Time cut off after a change of command, s, >= 0; increase it for vehicles that settle slowly.
   double settling_s = 1.0;
   /// Shortest segment, s, > 0; decrease it to accept more, less certain segments.
   double shortest_s = 1.0;
-  double later_s = 0.25;  ///< length of each further piece that is cut off, s, > 0
   /// Largest accepted change of the rate, as a fraction of its mean, > 0.
   double drift = 0.03;
-  /// Largest steering angle of a surge run, rad, > 0; default 0.5 deg.
-  double straight_rad = 0.0087;
 };
 
 /// Trial rows from the steady segments of a log.
@@ -42,8 +36,9 @@ struct SteadyRuns {
   TrialSet<TurningRow> turning;
 };
 
-/// Finds the steady segments of a log. Adds a note `steady-segment` for each.
-SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const SteadyRule& rule,
+/// Finds the segments of a log that are steady by the default SteadyRule. Adds a note
+/// `steady-segment` for each.
+SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle,
                        std::vector<Finding>& findings);
 
 /// Steady speed of a wheel at a constant command.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "awmr/core/csv.h"
+#include "awmr/trials/trial_columns.h"
 #include "read_table.h"
 #include "repeated_rows.h"
 #include "rest_limits.h"
@@ -56,7 +57,7 @@ double tau_speed_of(TrialReader& reader, std::size_t row, int driven_wheels,
 
 Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
                                       const TrialOptions& options, std::vector<Finding>& findings) {
-  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, TrialKind::kSurge, options));
+  AWMR_ASSIGN_OR_RETURN(CsvTable table, read_table(path, columns_of(TrialKind::kSurge), options));
   TrialReader reader(std::move(table), options);
   check_surge_columns(reader);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));

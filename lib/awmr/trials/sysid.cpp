@@ -25,6 +25,7 @@
 #include <utility>
 
 #include "awmr/core/json_document.h"
+#include "awmr/core/name_table.h"
 #include "awmr/core/units.h"
 #include "log_formats.h"
 
@@ -37,11 +38,7 @@ constexpr std::array<std::string_view, 9> kSysIdTests{
     "fast-backward",   "quasistatic-forward", "quasistatic-backward",
     "dynamic-forward", "dynamic-backward",    "track-width"};
 
-struct SysIdLength {
-  std::string_view name;
-  double metres;
-};
-constexpr std::array<SysIdLength, 3> kSysIdLengths{
+constexpr NameTable<double, 3> kSysIdLengths_m{
     {{"Meters", 1.0}, {"Feet", 0.3048}, {"Inches", 0.0254}}};
 
 /// Conversion of a number in the file: none, radians to degrees, rotations to metres.
@@ -157,8 +154,8 @@ const SysIdRow* SysIdReader::find_form() {
 
 double SysIdReader::read_metres_per_rotation() {
   const std::string units = text_at("units").value_or("");
-  const auto unit = std::ranges::find(kSysIdLengths, units, &SysIdLength::name);
-  if (unit == kSysIdLengths.end()) {
+  const auto unit_m = value_in(kSysIdLengths_m, units);
+  if (!unit_m) {
     fault(ErrorCode::kUnknownName, "/units",
           fmt::format("\"{}\" is not a unit of length; set units to \"Meters\" and "
                       "unitsPerRotation to the wheel's circumference in metres",
@@ -168,7 +165,7 @@ double SysIdReader::read_metres_per_rotation() {
   const auto factor = document_.find("unitsPerRotation");
   const bool is_positive =
       factor != document_.end() && factor->is_number() && factor->get<double>() > 0.0;
-  const double metres = is_positive ? factor->get<double>() * unit->metres : 0.0;
+  const double metres = is_positive ? factor->get<double>() * *unit_m : 0.0;
   if (metres > 0.0 && std::isfinite(metres)) return metres;
   fault(ErrorCode::kOutOfRange, "/unitsPerRotation",
         fmt::format("expected a number above 0: the wheel's circumference in {}", units));

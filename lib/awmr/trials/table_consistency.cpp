@@ -74,26 +74,15 @@ ForceSpan side_forces(const TurningRow& row) {
 ForceSpan steered_force(const TurningRow& row) { return {row.wheel_force, row.wheel_force}; }
 ForceSpan thrust(const SurgeRow& row) { return {row.tau_speed, row.tau_speed}; }
 
-/// Wheel forces that are not F' (force over F_max), from all tables of a vehicle. They decide the
-/// unit of each force column whose values cannot be F'.
-struct FolderForces {
-  /// Range of the forces of those tables in which the forces exceed the limit and cannot be F'.
-  /// Absent if there is no such table.
-  std::optional<ForceSpan> wheels = {};
-
-  /// Returns the range of forces that decides the unit of a column: `own`, the range of the column
-  /// itself, if its values can be F'; `wheels` if they cannot.
-  ForceSpan with(const ForceSpan& own) const {
-    return is_share_of_f_max(own) || !wheels ? own : *wheels;
-  }
-};
-
-FolderForces folder_forces(const Tables& tables) {
-  FolderForces found;
+/// Range of the wheel forces in those tables of a vehicle in which the forces exceed the limit and
+/// cannot be F' (force over F_max). They decide the unit of each force column whose values cannot
+/// be F'. Empty if there is no such table.
+std::optional<ForceSpan> forces_in_other_units(const Tables& tables) {
+  std::optional<ForceSpan> found;
   const auto add = [&found](const auto& forces, int wheels) {
     const ForceSpan span{forces.span.least / wheels, forces.span.largest / wheels};
     if (forces.first == nullptr || is_share_of_f_max(span)) return;
-    found.wheels = found.wheels ? joined(*found.wheels, span) : span;
+    found = found ? joined(*found, span) : span;
   };
   if (tables.surge && tables.surge->force_column == "wheel_force") {
     const int wheels = tables.vehicle.driven_wheels();
@@ -109,6 +98,12 @@ FolderForces folder_forces(const Tables& tables) {
   return found;
 }
 
+/// Range of forces that decides the unit of a column: `own`, the range of the column itself, if its
+/// values can be F'; else forces_in_other_units().
+ForceSpan deciding_forces(const ForceSpan& own, const Tables& tables) {
+  return is_share_of_f_max(own) ? own : forces_in_other_units(tables).value_or(own);
+}
+
 std::string limits_text(const Interval& force) {
   return fmt::format("wheel_force [{:g}, {:g}] of the vehicle", force.lo, force.hi);
 }
@@ -116,7 +111,7 @@ std::string limits_text(const Interval& force) {
 void check_sides(const Table& table, const std::vector<TurningRow>& rows, const Tables& tables) {
   const auto [first, span] = beyond(rows, side_forces, largest_wheel_force(tables.vehicle));
   if (first == nullptr) return;
-  const ForceUnits units = force_units(folder_forces(tables).with(span), tables.vehicle);
+  const ForceUnits units = force_units(deciding_forces(span, tables), tables.vehicle);
   for (const char* column : {"force_left", "force_right"}) {
     table.report(
         first->line,
@@ -130,7 +125,7 @@ void check_wheel_force(const Table& table, const std::vector<TurningRow>& rows,
                        const Tables& tables) {
   const auto [first, span] = beyond(rows, steered_force, tables.vehicle.wheel_force.hi);
   if (first == nullptr) return;
-  const ForceUnits units = force_units(folder_forces(tables).with(span), tables.vehicle);
+  const ForceUnits units = force_units(deciding_forces(span, tables), tables.vehicle);
   table.report(first->line,
                fmt::format("wheel_force is {:.4g}, beyond {} (largest in the table: {:.4g}): {}",
                            first->wheel_force, limits_text(tables.vehicle.wheel_force),
@@ -147,15 +142,14 @@ void check_thrust(const Table& table, const TrialSet<SurgeRow>& surge, const Tab
   const double limit = wheels * vehicle.wheel_force.hi;
   const auto [first, span] = beyond(surge.rows, thrust, limit);
   if (first == nullptr) return;
-  const FolderForces folder = folder_forces(tables);
   const bool by_wheel = surge.force_column == "wheel_force";
   ThrustUnits found;
   if (by_wheel) {
     const ForceSpan of_one{span.least / wheels, span.largest / wheels};
-    found.units = force_units(folder.with(of_one), vehicle);
+    found.units = force_units(deciding_forces(of_one, tables), vehicle);
     found.unit_fixes = force_unit_fixes(found.units, "wheel_force");
   } else {
-    found = thrust_units(span, folder.wheels, vehicle);
+    found = thrust_units(span, forces_in_other_units(tables), vehicle);
   }
   const std::string of_wheel =
       by_wheel ? fmt::format("{} x wheel_force {:.4g} = ", wheels, first->tau_speed / wheels) : "";

@@ -78,7 +78,7 @@ std::vector<std::string> all_columns() {
 
 std::optional<std::string> unknown_target(const ColumnMapping& mapping) {
   const std::vector<std::string> names = all_columns();
-  if (std::find(names.begin(), names.end(), mapping.name) != names.end()) return std::nullopt;
+  if (contains(names, mapping.name)) return std::nullopt;
   const std::string near = nearest(mapping.name, names);
   return fmt::format("no trial has a column {}; {}", mapping.name,
                      near.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
@@ -231,7 +231,7 @@ Status check_mappings(const TrialOptions& options, std::span<const std::size_t> 
   std::vector<Fault> faults;
   for (std::size_t i = 0; i < options.columns.size(); ++i) {
     const ColumnMapping& mapping = options.columns[i];
-    if (mapping.standing || std::find(used.begin(), used.end(), i) != used.end()) continue;
+    if (mapping.standing || contains(used, i)) continue;
     if (headers.empty()) headers = headers_of(files);
     const std::string why = unusable(mapping, headers).value_or(why_unused(mapping));
     faults.push_back({ErrorCode::kUnusedMapping, place_of(mapping), "unused: " + why});

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "awmr/core/interval.h"
+#include "awmr/core/text.h"
 #include "awmr/core/units.h"
 #include "awmr/model/plausibility.h"
 #include "force_units.h"
@@ -246,7 +247,9 @@ WrongUnit wrong_column(const TurnShare& worst, const TurnCriterion& criterion, b
             "vehicle sizes with which they are compared"};
   }
   const std::string_view what = is_printed ? "the yaw rates look like" : "this looks like";
-  return {line, fmt::format("{}: {} {}", described, what, words_of(unit_fixes)), unit_fixes};
+  const auto words = [](const UnitFix& unit_fix) { return unit_fix.words; };
+  return {line, fmt::format("{}: {} {}", described, what, enumerated(unit_fixes, words, " or ")),
+          unit_fixes};
 }
 
 /// Reports single rows that exceed the limit in a table in which most rows do not.

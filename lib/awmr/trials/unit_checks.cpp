@@ -10,6 +10,7 @@
 #include "awmr/core/containers.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
+#include "awmr/trials/channel_quality.h"
 #include "awmr/trials/log_evidence.h"
 #include "force_units.h"
 
@@ -133,11 +134,7 @@ std::optional<double> sharpness(const Evidence& evidence, double factor) {
 }
 
 double largest_steering_deg(const DrivingLog& log) {
-  double largest_deg = 0.0;
-  for (const double angle : log.driving_steering_rad()) {
-    largest_deg = std::max(largest_deg, std::abs(degrees(angle)));
-  }
-  return largest_deg;
+  return degrees(largest_size(log.driving_steering_rad()));
 }
 
 /// Detects a servo command in place of the steering angle: a servo angle with its centre at 90 or
@@ -258,8 +255,7 @@ std::vector<Contradiction> unit_contradictions(const Evidence& evidence) {
     return found;
   }
   if (const auto steering = check_steering(evidence)) found.push_back(*steering);
-  const std::vector<Contradiction> motion = motion_unit_contradictions(evidence);
-  append(found, motion);
+  append(found, motion_unit_contradictions(evidence));
   return found;
 }
 

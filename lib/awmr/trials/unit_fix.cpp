@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "awmr/core/text.h"
 #include "awmr/trials/log_evidence.h"
 
 namespace awmr {
@@ -17,11 +16,6 @@ std::string mapped_by(std::span<const UnitFix> unit_fixes, std::span<const Colum
     if (in_doubt || unit_fixes.size() > 1) text += fmt::format(" ({})", unit_fix.words);
   }
   return text;
-}
-
-std::string words_of(std::span<const UnitFix> unit_fixes) {
-  const auto words = [](const UnitFix& unit_fix) { return unit_fix.words; };
-  return enumerated(unit_fixes, words, " or ");
 }
 
 }  // namespace awmr

@@ -26,8 +26,4 @@ struct UnitFix {
 std::string mapped_by(std::span<const UnitFix> unit_fixes, std::span<const ColumnMapping> mappings,
                       bool in_doubt = false);
 
-/// Joins the units for messages: "percent", "percent or 8-bit PWM counts", "percent, volts or
-/// newtons".
-std::string words_of(std::span<const UnitFix> unit_fixes);
-
 }  // namespace awmr

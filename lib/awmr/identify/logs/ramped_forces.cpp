@@ -166,7 +166,7 @@ RampedForces::RampedForces(const DrivingLog& log, std::size_t begin, std::size_t
     : times_(times) {
   constexpr double kRamps = 2.0;  // from -F_max to F_max
   const double memory_s = kForgottenLags * times.lag_s + kRamps * (times.rise_s + times.fall_s);
-  const RowRange rows = rows_with_effect(log, {begin, end}, memory_s);
+  const RowSpan rows = rows_with_effect(log, {begin, end}, memory_s);
   left_ = ramped(log, log.force_left, rows.begin, rows.end, times);
   right_ = ramped(log, log.force_right, rows.begin, rows.end, times);
 }
