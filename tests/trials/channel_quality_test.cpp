@@ -79,6 +79,39 @@ TEST(ChannelQuality, ASlowSensorCountsAtItsOwnRate) {
   }
 }
 
+double rounded(double value, double resolution) {
+  return resolution * std::round(value / resolution);
+}
+
+/// Readings at `rate_hz`, each of which stays in the log until the next one.
+TEST(ChannelQuality, ASensorOfAnyLowerRateCountsAtItsOwnRate) {
+  for (const double resolution : {1e-5, 0.001}) {
+    for (const double rate_hz : {20.0, 23.0, 25.0, 27.0, 30.0, 35.0, 40.0, 44.0}) {
+      Drive d = drive(4, 0.02);
+      const std::vector<double> all = d.speed;
+      for (std::size_t i = 0; i < kRows; ++i) {
+        const double readings = std::floor(rate_hz / kRate_hz * static_cast<double>(i) + 0.3);
+        const double row = std::ceil((readings - 0.3) * kRate_hz / rate_hz);
+        d.speed[i] = rounded(all[static_cast<std::size_t>(std::max(0.0, row))], resolution);
+      }
+      const ChannelQuality q = evaluate(d);
+      EXPECT_EQ(q.repeats, Repeats::kSlow) << rate_hz << ' ' << resolution;
+      EXPECT_NEAR(static_cast<double>(fresh_rows(q)), kRows * rate_hz / kRate_hz, 0.03 * kRows)
+          << rate_hz << ' ' << resolution;
+    }
+  }
+}
+
+TEST(ChannelQuality, EqualReadingsByRoundingAreNotThoseOfASlowSensor) {
+  for (const double resolution : {0.002, 0.004, 0.006, 0.01, 0.02}) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      Drive d = drive(seed, 0.02);
+      for (double& u : d.speed) u = rounded(u, resolution);
+      EXPECT_EQ(fresh_rows(evaluate(d)), kRows) << resolution << ' ' << seed;
+    }
+  }
+}
+
 /// A slowly moving signal reaches the next step of the resolution at irregular times, often several
 /// rows apart.
 TEST(ChannelQuality, ACoarseSensorWithoutNoiseIsNotTakenForASlowOne) {

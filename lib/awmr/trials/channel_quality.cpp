@@ -10,9 +10,6 @@
 namespace awmr {
 namespace {
 
-/// If more than this fraction of the values of a moving signal repeat the value before, the sensor
-/// may be slower than the log.
-constexpr double kRepeatedShare = 0.5;
 /// If more than this fraction of the values repeat the value before, the sensor has a coarse
 /// resolution. If fewer do, the steps between values come only from the decimal places in the file.
 constexpr double kSomeRepeats = 0.2;
@@ -82,14 +79,34 @@ bool changes_step_by_step(const Changes& changes, double quantum) {
   return static_cast<double>(multiples) < kRegular * static_cast<double>(gaps.size());
 }
 
+/// True for a sensor whose rate is between half the rate of the log and this rate, so that one or
+/// two rows have the same reading. Of the values that stand in one or two rows, those in two rows
+/// are then at least a tenth, and at least four times as many as the resolution explains. (Readings
+/// with normal noise whose changes have the median m are rounded to equal values with a probability
+/// of 0.27 r/m, for the resolution r.)
+bool is_in_one_or_two_rows(const Changes& changes) {
+  constexpr double kSome = 0.1;
+  constexpr double kTimes = 4.0;
+  constexpr double kPerResolution = 0.27;
+  double once = 0.0;
+  double twice = 0.0;
+  for (const double gap : gaps_of(changes)) {
+    if (gap == 1.0) ++once;
+    if (gap == 2.0) ++twice;
+  }
+  const double resolution = *std::ranges::min_element(changes.step);
+  const double by_chance = kPerResolution * resolution / median(changes.step);
+  return twice > std::max(kSome, kTimes * by_chance) * (once + twice);
+}
+
 /// Marks the rows in which a slow sensor has a new reading: those in which the value changes. If
-/// the value stays the same for several usual (median) intervals between changes, the sensor
-/// probably read the same value again, so one row in each of these intervals is marked as well.
+/// the value stays the same for several usual intervals between changes (the median, at least two
+/// rows), the sensor probably read the same value again, so one row in each of these intervals is
+/// marked as well.
 std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
   std::vector<bool> fresh(rows, false);
   fresh[0] = true;
-  const std::vector<double> gaps = gaps_of(changes);
-  const auto usual = static_cast<std::size_t>(std::max(1.0, median(gaps)));
+  const auto usual = static_cast<std::size_t>(std::max(2.0, median(gaps_of(changes))));
   for (std::size_t k = 0; k < changes.row.size(); ++k) {
     const std::size_t end = k + 1 < changes.row.size() ? changes.row[k + 1] : rows;
     for (std::size_t i = changes.row[k]; i + usual / 2 < end || i == changes.row[k]; i += usual) {
@@ -349,11 +366,11 @@ ChannelQuality find_repeats(std::span<const double> value) {
   const double moving = static_cast<double>(changes.row.back() - changes.row.front());
   const double repeated = moving - static_cast<double>(changes.row.size() - 1);
   const double quantum = quantum_of(changes);
-  const bool often = repeated > kRepeatedShare * moving;
   // The sensor is slower than the log if 95 % of the changes are at least two rows apart.
-  const bool own_rate =
-      often && quantile(gaps_of(changes), 0.05) >= 2.0 && !changes_step_by_step(changes, quantum);
-  if (own_rate) {
+  const bool is_slow =
+      (quantile(gaps_of(changes), 0.05) >= 2.0 && !changes_step_by_step(changes, quantum)) ||
+      (quantum == 0.0 && is_in_one_or_two_rows(changes));
+  if (is_slow) {
     quality.repeats = Repeats::kSlow;
     quality.fresh = slow_readings(changes, value.size());
     quality.quantum = quantum;
