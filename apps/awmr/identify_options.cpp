@@ -44,7 +44,7 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
   } else if (subject == "surge") {
     options.surge_family = choice;
   } else if (subject == "yaw") {
-    if (choice.family == Family::kDeadZone) {
+    if (choice.family && terms_of(*choice.family).dead_zone) {
       return input_error(ErrorCode::kConflict, "--family",
                          "a dead zone is a property of the motors, not of the yaw resistance: use "
                          "surge=dead-zone, which also corrects the turning runs");

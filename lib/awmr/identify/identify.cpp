@@ -85,6 +85,12 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
                     "\"{}\"; choose another family",
                     name_in(kDriveNames, vehicle.drive)));
   }
+  if (data.surge && options.surge_family.family == Family::kDeadZoneCoulomb) {
+    return input_error(ErrorCode::kUnsupported, option_text("family"),
+                       "surge runs at steady speed show only the sum of Coulomb friction and dead "
+                       "zone, so dead-zone-coulomb needs driving logs without surge runs; choose "
+                       "dead-zone or coulomb-power");
+  }
   AWMR_RETURN_IF_ERROR(check_method(data, options));
   if (!options.terms.empty() && data.logs.empty()) {
     return input_error(ErrorCode::kMissing, option_text("fit"),
@@ -131,11 +137,12 @@ SubjectOptions subject_options(const IdentifyOptions& options, Method method,
           .keeps_outliers = options.keeps_outliers};
 }
 
-/// Family of the yaw fit. For `dead-zone` this is the power law, because the wheels' dead zone is
-/// identified from the surge runs and subtracted from the forces of the turning runs.
+/// Family of the yaw fit. It has no dead zone, because the wheels' dead zone is identified from the
+/// surge runs and subtracted from the forces of the turning runs.
 FamilyChoice yaw_family(const IdentifyOptions& options) {
-  if (options.yaw_family.family == Family::kDeadZone) return {Family::kPower};
-  return options.yaw_family;
+  FamilyChoice choice = options.yaw_family;
+  if (choice.family) choice.family = without_dead_zone(*choice.family);
+  return choice;
 }
 
 template <class Step>

@@ -14,8 +14,16 @@ FamilyTerms terms_of(Family family) {
       return {.beta = true, .coulomb = true};
     case Family::kDeadZone:
       return {.beta = true, .dead_zone = true};
+    case Family::kDeadZoneCoulomb:
+      return {.beta = true, .coulomb = true, .dead_zone = true};
   }
   return {};
+}
+
+Family without_dead_zone(Family family) {
+  if (family == Family::kDeadZone) return Family::kPower;
+  if (family == Family::kDeadZoneCoulomb) return Family::kCoulombPower;
+  return family;
 }
 
 }  // namespace awmr

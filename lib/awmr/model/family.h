@@ -14,13 +14,17 @@ enum class Family {
   kCoulombLinearQuadratic,  ///< c + alpha w + q w^2
   kCoulombPower,            ///< c + alpha w^beta
   kDeadZone,                ///< alpha w^beta, and motor commands with a dead zone; surge only
+  /// c + alpha w^beta, and motor commands with a dead zone; surge only, and only in logs: steady
+  /// runs show only the sum of Coulomb friction and dead zones.
+  kDeadZoneCoulomb,
 };
-inline constexpr NameTable<Family, 5> kFamilyNames{
+inline constexpr NameTable<Family, 6> kFamilyNames{
     {{"power", Family::kPower},
      {"coulomb-linear", Family::kCoulombLinear},
      {"coulomb-linear-quadratic", Family::kCoulombLinearQuadratic},
      {"coulomb-power", Family::kCoulombPower},
-     {"dead-zone", Family::kDeadZone}}};
+     {"dead-zone", Family::kDeadZone},
+     {"dead-zone-coulomb", Family::kDeadZoneCoulomb}}};
 constexpr std::string_view name_of(Family family) { return name_in(kFamilyNames, family); }
 
 /// Parameters that a fit of the family estimates, in addition to alpha. Parameters that the family
@@ -32,5 +36,8 @@ struct FamilyTerms {
   bool dead_zone = false;
 };
 FamilyTerms terms_of(Family family);
+
+/// The family with the same terms except the dead zone.
+Family without_dead_zone(Family family);
 
 }  // namespace awmr

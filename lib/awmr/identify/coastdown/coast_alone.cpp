@@ -51,14 +51,12 @@ EstimatorReport report_of_alone(const CoastFit& fit) {
 }
 
 /// Fits the curves under the requested family, or under all kCoastFamilies if none or `auto` is
-/// requested. Fits `dead-zone` as the power law.
+/// requested. The motors are off, so a dead zone has no effect.
 std::vector<CoastFit> fits_of(const std::vector<CoastCurve>& curves, const Interval& beta_range,
                               const FamilyChoice& choice) {
   std::vector<CoastFit> fits;
   for (const Family family : kCoastFamilies) {
-    const Family requested =
-        choice.family == Family::kDeadZone ? Family::kPower : choice.family.value_or(family);
-    if (choice.requested && family != requested) continue;
+    if (choice.requested && family != without_dead_zone(choice.family.value_or(family))) continue;
     fits.push_back(fit_coast_alone(curves, beta_range, family));
   }
   return fits;

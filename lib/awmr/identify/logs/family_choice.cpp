@@ -24,17 +24,24 @@ bool is_of_yaw(ParameterId term) {
   return term == ParameterId::kYawCoulomb || term == ParameterId::kYawQuadratic;
 }
 
-/// Largest decrease of -2 ln L that a score test predicts for one more term in the resistance of an
-/// axis (yaw if `of_yaw`, else surge). 0 if no such term was tested.
+/// Largest decrease of -2 ln L that a score test predicts for one more of the terms for which
+/// `counts` is true. 0 if no such term was tested.
+template <class Predicate>
 double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate_terms,
-                    bool of_yaw) {
+                    const Predicate& counts) {
   double most = 0.0;
   for (std::size_t i = 0; i < std::min(candidate_terms.size(), fit.candidate_gain.size()); ++i) {
-    const bool is_of_axis =
-        candidate_terms[i] != ParameterId::kBackEmf && is_of_yaw(candidate_terms[i]) == of_yaw;
-    if (is_of_axis) most = std::max(most, fit.candidate_gain[i]);
+    if (counts(candidate_terms[i])) most = std::max(most, fit.candidate_gain[i]);
   }
   return most;
+}
+
+/// largest_gain() of the terms in the resistance of an axis (yaw if `of_yaw`, else surge).
+double largest_gain_of_axis(const LogFit& fit, const std::vector<ParameterId>& candidate_terms,
+                            bool of_yaw) {
+  return largest_gain(fit, candidate_terms, [of_yaw](ParameterId term) {
+    return term != ParameterId::kBackEmf && is_of_yaw(term) == of_yaw;
+  });
 }
 
 /// True if a resistance family with more terms may be better (FamilyContest::only_candidates). A
@@ -42,7 +49,7 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
 /// surge.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // smallest predicted decrease of -2 ln L that is worth a fit
-  if (!fit.usable || largest_gain(fit, candidate_terms, of_yaw) > kWorthATry) return true;
+  if (!fit.usable || largest_gain_of_axis(fit, candidate_terms, of_yaw) > kWorthATry) return true;
   const auto drifts = [&](LogChannel channel) {
     const auto noise = fit.noise.find(channel);
     return noise != fit.noise.end() && noise->second.has_slow_drift();
@@ -196,18 +203,37 @@ std::set<std::string> names_of_terms(const LogFit& fit) {
   return names;
 }
 
+/// Replaces `result.best` by `other` if the AIC of `other` is significantly lower.
+void replace_if_better(FamilyFit other, BestFamily& result) {
+  if (!(aic_lead(other.fit, result.best.fit) > kFamilyAicThreshold)) return;
+  std::swap(other, result.best);
+  result.others.push_back(std::move(other));
+}
+
 /// Fits Stribeck friction of one axis (yaw if `of_yaw`, else surge) together with Coulomb and
 /// linear friction. Keeps this fit if it is significantly better than `result.best`. A score test
 /// could not find it, because a power law with Coulomb friction resembles Stribeck friction.
-void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
+void compete_with_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            bool of_yaw, BestFamily& result) {
   if (!result.best.fit.usable || result.is_out_of_time) return;
-  power_law = with_limits_for_gain(result.best, logs, std::move(power_law));
-  FamilyFit stribeck = fit_stribeck(logs, power_law, result.best, of_yaw);
-  if (aic_lead(stribeck.fit, result.best.fit) > kFamilyAicThreshold) {
-    std::swap(stribeck, result.best);
-    result.others.push_back(std::move(stribeck));
-  }
+  const LogFitOptions limited = with_limits_for_gain(result.best, logs, power_law);
+  replace_if_better(fit_stribeck(logs, limited, result.best, of_yaw), result);
+}
+
+/// Fits Coulomb friction of the surge resistance together with a dead zone if the best fit has a
+/// dead zone, or if it has Coulomb friction and a score test predicts that a dead zone is
+/// significant. Keeps this fit if it is significantly better.
+void compete_with_dead_zone_and_coulomb(const std::vector<DrivingLog>& logs,
+                                        const LogFitOptions& power_law, BestFamily& result) {
+  const FamilyFit& best = result.best;
+  const FamilyTerms terms = terms_of(best.surge);
+  if (!best.fit.usable || result.is_out_of_time || terms.coulomb == terms.dead_zone) return;
+  const double gain = largest_gain(best.fit, power_law.candidate_terms, [](ParameterId term) {
+    return term == ParameterId::kWheelDeadZone;
+  });
+  if (!terms.dead_zone && !(gain > kFamilyAicThreshold)) return;
+  const LogFitOptions limited = with_limits_for_gain(best, logs, power_law);
+  replace_if_better(fit_from(logs, limited, best, Family::kDeadZoneCoulomb, best.yaw), result);
 }
 
 /// True if the errors of the fit are hardly larger than the sensor noise (LogFit::relative_error
@@ -385,6 +411,7 @@ struct FamilyComparison {
     compete(logs, power_law, of_yaw, others, contest.lead, result);
     if (winners.try_emplace(of_yaw, result.best.fit).second) {
       compete_with_stribeck(logs, power_law, of_yaw, result);
+      if (!of_yaw) compete_with_dead_zone_and_coulomb(logs, power_law, result);
     }
     const bool is_changed = families() != before || names_of_terms(result.best.fit) != terms;
     if (is_changed) search_terms_again(logs, power_law, result);
@@ -399,8 +426,8 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
   // is the one with the larger decrease of -2 ln L that the score tests predict for an additional
   // resistance term. If the resistance of this axis has a wrong form, it may also cause the errors
   // of the other axis.
-  const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
-                         largest_gain(first.fit, power_law.candidate_terms, false);
+  const bool yaw_first = largest_gain_of_axis(first.fit, power_law.candidate_terms, true) >
+                         largest_gain_of_axis(first.fit, power_law.candidate_terms, false);
   FamilyComparison comparison{logs, power_law, contest, {std::move(first), {}, {}, false}, {}};
   BestFamily& result = comparison.result;
   for (const bool of_yaw : {yaw_first, !yaw_first, yaw_first}) {

@@ -82,10 +82,11 @@ void begin_near(const std::vector<DrivingLog>& logs, const FamilyFit& inner, Fam
     curve.coulomb += wheels * plant.wheel_dead_zone;
     const FamilyTerms terms = terms_of(surge);
     const auto near = nearest_curve(curve, terms, fastest(logs, LogChannel::kSpeed));
+    const double each = near.coulomb / (terms.coulomb && terms.dead_zone ? 2.0 : 1.0);
     values[at(ParameterId::kSurgeAlpha)] = near.alpha;
     values[at(ParameterId::kSurgeBeta)] = near.beta;
-    values[at(ParameterId::kSurgeCoulomb)] = terms.coulomb ? near.coulomb : 0.0;
-    values[at(ParameterId::kWheelDeadZone)] = terms.dead_zone ? near.coulomb / wheels : 0.0;
+    values[at(ParameterId::kSurgeCoulomb)] = terms.coulomb ? each : 0.0;
+    values[at(ParameterId::kWheelDeadZone)] = terms.dead_zone ? each / wheels : 0.0;
     values[at(ParameterId::kSurgeQuadratic)] = near.quadratic;
   }
   if (yaw != inner.yaw) {

@@ -16,7 +16,8 @@ namespace awmr {
 std::vector<Families> other_families(const Families& from, bool of_yaw) {
   std::vector<Families> others;
   for (const Family family : values_in(kFamilyNames)) {
-    if (of_yaw && family == Family::kDeadZone) continue;  // yaw has no dead zone
+    if (of_yaw && terms_of(family).dead_zone) continue;  // yaw has no dead zone
+    if (family == Family::kDeadZoneCoulomb) continue;    // compared last, in best_family()
     const Families other = of_yaw ? Families{from.surge, family} : Families{family, from.yaw};
     if (other != from) others.push_back(other);
   }

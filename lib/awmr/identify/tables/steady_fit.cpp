@@ -67,6 +67,8 @@ std::vector<Family> families_inside(Family family) {
       return {Family::kPower, Family::kCoulombLinear};
     case Family::kDeadZone:
       return {Family::kPower};
+    case Family::kDeadZoneCoulomb:
+      return {Family::kDeadZone, Family::kCoulombPower};
   }
   return {};
 }

@@ -29,10 +29,12 @@ double share_beyond(const TurningRow& row, double dead_zone) {
   return (right - left) / (row.sides->right - row.sides->left);
 }
 
-/// Families for the surge table. Excludes `dead-zone` unless the vehicle has four driven wheels.
+/// Families for the surge table. Excludes `dead-zone-coulomb`, and `dead-zone` unless the vehicle
+/// has four driven wheels.
 std::vector<Family> surge_families(const Vehicle& vehicle) {
   const auto all = values_in(kFamilyNames);
   std::vector<Family> families(all.begin(), all.end());
+  std::erase(families, Family::kDeadZoneCoulomb);
   if (vehicle.driven_wheels() != 4) std::erase(families, Family::kDeadZone);
   return families;
 }
