@@ -44,7 +44,8 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
          "--family", words.families,
          "Family (formula) of the resistance laws: power (default; a fit of logs uses another "
          "family if that is significantly better), coulomb-linear, coulomb-linear-quadratic, "
-         "coulomb-power, dead-zone, or auto (best fit for its number of parameters, by AICc); "
+         "coulomb-power, dead-zone, dead-zone-coulomb (logs only), or auto (best fit for its "
+         "number of parameters, by AICc); "
          "surge=NAME or yaw=NAME selects the family of one law")
       ->delimiter(',');
   add_choice(sub, "--loss", options.loss, kLossNames,

@@ -471,5 +471,23 @@ TEST(Windows, PartsContainEverySampleOnce) {
   }
 }
 
+TEST(FamilyChoice, FindsCoulombFrictionTogetherWithADeadZone) {
+  const Truth& t = kTruths[1];
+  Plant<double> rubbing = plant(t);
+  rubbing.surge = {.alpha = 0.9, .beta = 0.8, .coulomb = 0.3};
+  rubbing.wheel_dead_zone = 0.06;
+  Random random(3, 5);
+  TrialData data;
+  data.logs = {simulate_log(rubbing, robot(), {.duration_s = 40.0, .rate_hz = 50.0, .drive = 3},
+                            kPreciseSensors, random)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->model.surge_family, Family::kDeadZoneCoulomb);
+  expect_recovered(*result, ParameterId::kSurgeCoulomb, 0.3, 4.0);
+  expect_recovered(*result, ParameterId::kWheelDeadZone, 0.06, 4.0);
+  expect_recovered(*result, ParameterId::kSurgeAlpha, 0.9, 4.0);
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.0);
+}
+
 }  // namespace
 }  // namespace awmr::testing

@@ -148,6 +148,15 @@ TEST(Turns, ThatAgreeAreSeldomSaidToDiffer) {
   EXPECT_LE(differ, 4);  // level 1 %: more than 4 of 100 with probability 0.3 %
 }
 
+/// Steady runs show only the sum of the Coulomb friction and the dead zones.
+TEST(Families, DeadZoneWithCoulombFrictionNeedsLogs) {
+  const auto result =
+      identify(vehicle(), runs_on({.alpha = 1.0, .beta = 1.0, .coulomb = 0.2}, 0.05, 0.0, 1),
+               family(Family::kDeadZoneCoulomb), {});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().faults.front().code, ErrorCode::kUnsupported);
+}
+
 TEST(Families, DeadZoneOfTheWheelsIsSubtractedFromTheTurningRuns) {
   const Resistance<double> surge{.alpha = 1.3, .beta = 0.7};
   const Resistance<double> yaw{.alpha = 0.3, .beta = 0.8};

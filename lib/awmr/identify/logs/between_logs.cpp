@@ -82,7 +82,7 @@ Heterogeneity heterogeneity(const ByLog& by_log) {
 }
 
 /// Raises the standard error of quantity `i` of the common fit to `std_error`, and sets the
-/// interval by Student's t. `logs`: number of logs from which `std_error` was computed. A larger
+/// interval by Student's t. A withdrawn interval stays withdrawn. `logs`: number of logs from which `std_error` was computed. A larger
 /// standard error of the common fit stays, because it includes the scatter between parts of the
 /// logs.
 void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
@@ -95,6 +95,7 @@ void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   const double error = fit.error_of(i);
   const double half = t_quantile_95(static_cast<double>(logs) - 1.0) * error;
   EstimatorParameter& parameter = fit.report.parameters[i];
+  if (!parameter.ci95) return;
   parameter.std_error = q.jacobian(x) * error;
   parameter.ci95 = Interval{q.value(x - half), q.value(x + half)};
 }

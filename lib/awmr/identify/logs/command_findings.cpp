@@ -72,6 +72,12 @@ bool is_within_rows(const FoundTerm& term, const LogFit& fit) {
          std::abs(term.value) < kShare * fit.change_reach_s + 2.0 * term.error;
 }
 
+/// True for a ramp of the forces that became faster than kShortestRamp_s after it was added to the
+/// fit. It then describes other errors in the timing of the commands.
+bool is_no_ramp(const FoundTerm& term) {
+  return term.quantity.is_ramp() && term.value < kShortestRamp_s;
+}
+
 /// Reports a motor lag, a dead time or late time stamps of the commands if the fit has found them.
 /// Otherwise, if at least two channels are measured and all of them have a latency, reports that
 /// actuators or commands are the likely common cause. Times that changes between rows explain are
@@ -467,7 +473,7 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
   std::vector<Finding> findings;
   for (const TermFinding& one : kTermFindings) {
     for (const FoundTerm& term : found_terms(fit, one.kind)) {
-      if (is_within_rows(term, fit)) continue;
+      if (is_within_rows(term, fit) || is_no_ramp(term)) continue;
       const bool is_convex = one.kind == Kind::kForceExponent && term.value > 0.0;  // p > 1
       findings.push_back(
           {file, 0, Severity::kWarning, is_convex ? "force-curve" : one.code, one.text(term, fit)});
