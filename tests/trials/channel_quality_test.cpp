@@ -112,6 +112,43 @@ TEST(ChannelQuality, EqualReadingsByRoundingAreNotThoseOfASlowSensor) {
   }
 }
 
+/// Speed of an encoder: the mean of the ticks of two wheels since the row before, in units that the
+/// file rounds.
+TEST(ChannelQuality, AnEncoderThatCountsTicksIsNotSlow) {
+  Drive d = drive(7, 0.0);
+  double left_m = 0.0, right_m = 0.0;
+  double before = 0.0;
+  for (std::size_t i = 0; i < kRows; ++i) {
+    left_m += 0.97 * d.speed[i] / kRate_hz;
+    right_m += 1.03 * d.speed[i] / kRate_hz;
+    const double ticks = std::floor(left_m / 0.0049) + std::floor(right_m / 0.0049);
+    d.speed[i] = rounded(0.5 * 0.0049 * (ticks - before) * kRate_hz, 1e-4);
+    before = ticks;
+  }
+  EXPECT_EQ(fresh_rows(evaluate(d)), kRows);
+}
+
+/// Speed of an encoder: a tick divided by the time between the last two ticks. At low speed, it
+/// changes less often.
+TEST(ChannelQuality, AnEncoderThatTimesItsTicksHasNoRateOfItsOwn) {
+  Drive d = drive(8, 0.0);
+  constexpr double kTick_m = 0.013;
+  double moved_m = 0.0, last_tick_s = 0.0, shown = 0.0;
+  for (std::size_t i = 0; i < kRows; ++i) {
+    const double before_m = moved_m;
+    moved_m += d.speed[i] / kRate_hz;
+    const double ticks = std::floor(moved_m / kTick_m) - std::floor(before_m / kTick_m);
+    if (ticks > 0.0) {
+      const double past_m = moved_m - kTick_m * std::floor(moved_m / kTick_m);
+      const double tick_s = static_cast<double>(i) / kRate_hz - past_m / d.speed[i];
+      shown = rounded(ticks * kTick_m / (tick_s - last_tick_s), 1e-4);
+      last_tick_s = tick_s;
+    }
+    d.speed[i] = shown;
+  }
+  EXPECT_EQ(evaluate(d).repeats, Repeats::kNone);
+}
+
 /// A slowly moving signal reaches the next step of the resolution at irregular times, often several
 /// rows apart.
 TEST(ChannelQuality, ACoarseSensorWithoutNoiseIsNotTakenForASlowOne) {

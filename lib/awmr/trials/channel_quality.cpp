@@ -79,24 +79,50 @@ bool changes_step_by_step(const Changes& changes, double quantum) {
   return static_cast<double>(multiples) < kRegular * static_cast<double>(gaps.size());
 }
 
-/// True for a sensor whose rate is between half the rate of the log and this rate, so that one or
-/// two rows have the same reading. Of the values that stand in one or two rows, those in two rows
-/// are then at least a tenth, and at least four times as many as the resolution explains. (Readings
-/// with normal noise whose changes have the median m are rounded to equal values with a probability
-/// of 0.27 r/m, for the resolution r.)
-bool is_in_one_or_two_rows(const Changes& changes) {
+/// True if the values are at least a tenth as many different ones as changes. A coarse sensor, such
+/// as an encoder that counts few ticks per row, has fewer.
+bool has_many_values(std::span<const double> value, const Changes& changes) {
+  constexpr double kMany = 0.1;
+  std::vector<double> sorted(value.begin(), value.end());
+  std::sort(sorted.begin(), sorted.end());
+  const auto different = std::unique(sorted.begin(), sorted.end()) - sorted.begin();
+  return static_cast<double>(different) > kMany * static_cast<double>(changes.row.size());
+}
+
+/// True if the share of `gaps` that are 2 is about the same in all parts of the log: its variance
+/// between blocks is at most twice that of random gaps. The share varies if a value changes when
+/// the vehicle has moved by a step, so that the rate depends on the speed.
+bool is_steady_share_of_two(const std::vector<double>& gaps, double share) {
+  constexpr std::size_t kBlock = 40;
+  double squares = 0.0;
+  std::size_t blocks = 0;
+  for (std::size_t begin = 0; begin + kBlock <= gaps.size(); begin += kBlock, ++blocks) {
+    const auto first = gaps.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto twos = std::count(first, first + static_cast<std::ptrdiff_t>(kBlock), 2.0);
+    squares += std::pow(static_cast<double>(twos) / kBlock - share, 2);
+  }
+  return squares <= 2.0 * static_cast<double>(blocks) * share * (1.0 - share) / kBlock;
+}
+
+/// True for a sensor whose rate is between half the rate of the log and this rate, so that each
+/// reading stands in one or two rows, at least a tenth of them in two:
+///   - nine tenths of the changes are one or two rows apart, with is_steady_share_of_two();
+///   - changes two rows apart are at least four times as many as the resolution explains. (Readings
+///     with normal noise whose changes have the median m are rounded to equal values with a
+///     probability of 0.27 r/m, for the resolution r.)
+bool is_in_one_or_two_rows(std::span<const double> value, const Changes& changes) {
   constexpr double kSome = 0.1;
   constexpr double kTimes = 4.0;
   constexpr double kPerResolution = 0.27;
-  double once = 0.0;
-  double twice = 0.0;
-  for (const double gap : gaps_of(changes)) {
-    if (gap == 1.0) ++once;
-    if (gap == 2.0) ++twice;
-  }
+  const std::vector<double> gaps = gaps_of(changes);
+  const auto once = static_cast<double>(std::ranges::count(gaps, 1.0));
+  const auto twice = static_cast<double>(std::ranges::count(gaps, 2.0));
+  const auto count = static_cast<double>(gaps.size());
+  if (once + twice < (1.0 - kSome) * count || !has_many_values(value, changes)) return false;
   const double resolution = *std::ranges::min_element(changes.step);
   const double by_chance = kPerResolution * resolution / median(changes.step);
-  return twice > std::max(kSome, kTimes * by_chance) * (once + twice);
+  const double share = twice / count;
+  return share > std::max(kSome, kTimes * by_chance) && is_steady_share_of_two(gaps, share);
 }
 
 /// Marks the rows in which a slow sensor has a new reading: those in which the value changes. If
@@ -369,7 +395,7 @@ ChannelQuality find_repeats(std::span<const double> value) {
   // The sensor is slower than the log if 95 % of the changes are at least two rows apart.
   const bool is_slow =
       (quantile(gaps_of(changes), 0.05) >= 2.0 && !changes_step_by_step(changes, quantum)) ||
-      (quantum == 0.0 && is_in_one_or_two_rows(changes));
+      (quantum == 0.0 && is_in_one_or_two_rows(value, changes));
   if (is_slow) {
     quality.repeats = Repeats::kSlow;
     quality.fresh = slow_readings(changes, value.size());
