@@ -45,9 +45,11 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
     options.surge_family = choice;
   } else if (subject == "yaw") {
     if (choice.family && terms_of(*choice.family).dead_zone) {
-      return input_error(ErrorCode::kConflict, "--family",
-                         "a dead zone is a property of the motors, not of the yaw resistance: use "
-                         "surge=dead-zone, which also corrects the turning runs");
+      return input_error(
+          ErrorCode::kConflict, "--family",
+          fmt::format("a dead zone is a property of the motors, not of the yaw resistance: "
+                      "use surge={}, which also corrects the turning",
+                      name));
     }
     options.yaw_family = choice;
   } else {

@@ -14,7 +14,7 @@ namespace awmr::cli {
 
 /// Parses a choice of the resistance family: `NAME` (for surge and yaw), `surge=NAME` or
 /// `yaw=NAME`, where NAME is a family or `auto`. Errors: an unknown name (the message lists the
-/// known ones); surge or yaw given twice; `yaw=dead-zone`.
+/// known ones); surge or yaw given twice; `yaw=` with a dead zone.
 Status add_family(std::string_view text, IdentifyOptions& options);
 
 /// Adds a parameter that is to be fitted: the name of a parameter, `all`, `input_delay_s`, or

@@ -60,7 +60,7 @@ TEST_F(Shards, KeepTheCommandsOfTheScenarios) {
   Model model = uncertain_model();
   model.vehicle.yaw_rate_max_degps = 1e-3;  // so that every turn is beyond the trials
   std::vector<Scenario> scenarios{short_heading("one"), short_heading("another")};
-  for (Scenario& scenario : scenarios) limit_heading_rate(12.0, scenario);
+  for (Scenario& scenario : scenarios) limit_heading_rate(12.0, 0.01, scenario);
   const auto part = [&](Shard shard) {
     return compare(model, kPaperGains, scenarios, options(shard)).value();
   };

@@ -229,11 +229,28 @@ TEST(Validity, TakesTheLimitOfTheHeadingRateFromTheScenario) {
   Scenario scenario = heading_steps({30.0});
   EXPECT_TRUE(turn_commands(scenario).are_headings);
   EXPECT_FALSE(turn_commands(scenario).rate_max_degps);
-  limit_heading_rate(15.0, scenario);
+  limit_heading_rate(15.0, 0.01, scenario);
   EXPECT_NEAR(turn_commands(scenario).rate_max_degps.value(), 15.0, 1e-12);
   scenario.guidance = OpenLoop{1.0, 0.1};  // has no heading, so the limit has no effect
   EXPECT_FALSE(turn_commands(scenario).are_headings);
   EXPECT_FALSE(turn_commands(scenario).rate_max_degps);
+}
+
+/// With a bandwidth of 4 rad/s, the filter would oscillate at a sample time of 0.25 s and more.
+TEST(Validity, TheLimitOfTheHeadingRateDoesNotOscillate) {
+  for (const double sample_time_s : {0.01, 0.1, 0.2, 0.25, 0.5, 1.0}) {
+    Scenario scenario = heading_steps({30.0});
+    limit_heading_rate(50.0, sample_time_s, scenario);
+    const double target_rad = radians(30.0);
+    ShapedHeading<double> state = start_shaping(0.0);
+    double most_rad = 0.0;
+    for (double t_s = 0.0; t_s < 30.0; t_s += sample_time_s) {
+      shape(*scenario.shaping, target_rad, sample_time_s, state);
+      most_rad = std::max(most_rad, state.psi_rad);
+    }
+    EXPECT_NEAR(state.psi_rad, target_rad, 1e-3 * target_rad) << sample_time_s;
+    EXPECT_LT(most_rad, 1.01 * target_rad) << sample_time_s;
+  }
 }
 
 TEST(Validity, WarnsIfHeadingsAreNotRateLimited) {

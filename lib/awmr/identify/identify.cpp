@@ -85,11 +85,14 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
                     "\"{}\"; choose another family",
                     name_in(kDriveNames, vehicle.drive)));
   }
-  if (data.surge && options.surge_family.family == Family::kDeadZoneCoulomb) {
-    return input_error(ErrorCode::kUnsupported, option_text("family"),
-                       "surge runs at steady speed show only the sum of Coulomb friction and dead "
-                       "zone, so dead-zone-coulomb needs driving logs without surge runs; choose "
-                       "dead-zone or coulomb-power");
+  const bool fits_only_logs = !data.surge && !data.logs.empty();
+  if (options.surge_family.family == Family::kDeadZoneCoulomb && !fits_only_logs) {
+    return input_error(
+        ErrorCode::kUnsupported, option_text("family"),
+        fmt::format("dead-zone-coulomb needs driving logs and no surge runs: at steady speed, only "
+                    "the sum of Coulomb friction and dead zones has an effect. Give {} without {}, "
+                    "or choose dead-zone or coulomb-power",
+                    option_text("log"), option_text("surge")));
   }
   AWMR_RETURN_IF_ERROR(check_method(data, options));
   if (!options.terms.empty() && data.logs.empty()) {

@@ -37,7 +37,8 @@ struct Plant {
   /// T, s, > 0: time constant of the servo's first-order lag. Data sheet, or a log of its angle.
   T steering_time_constant_s;
   /// F'0, >= 0: dead zone of the motors, the part of each wheel's force command (divided by F_max)
-  /// that has no effect. 0: none, as in the paper. Estimated only in the family `dead-zone`.
+  /// that has no effect. 0: none, as in the paper. Estimated only in the families
+  /// `dead-zone` and `dead-zone-coulomb`.
   T wheel_dead_zone = T(0.0);
   /// k_e, s/m, >= 0: back-EMF, the decrease of a motor's force, divided by F_max, per m/s at its
   /// wheel. 0: an ideal force source, as in the paper. Data sheet, or a log with driven and

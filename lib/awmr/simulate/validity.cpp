@@ -155,18 +155,18 @@ std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model
   return findings;
 }
 
-void limit_heading_rate(double limit_degps, Scenario& scenario) {
+void limit_heading_rate(double limit_degps, double sample_time_s, Scenario& scenario) {
   if (std::holds_alternative<OpenLoop>(scenario.guidance)) return;
   const double limit_radps = radians(limit_degps);
   if (scenario.shaping) {
     scenario.shaping->rate_max_radps = std::min(scenario.shaping->rate_max_radps, limit_radps);
     return;
   }
+  const double omega_radps = std::min(kShapingBandwidth_radps, kShapingSamples / sample_time_s);
   // With this acceleration limit, the filter reaches its rate limit within its time constant.
-  scenario.shaping =
-      HeadingShaping<double>{.omega_radps = kShapingBandwidth_radps,
-                             .rate_max_radps = limit_radps,
-                             .accel_max_radps2 = kShapingBandwidth_radps * limit_radps};
+  scenario.shaping = HeadingShaping<double>{.omega_radps = omega_radps,
+                                            .rate_max_radps = limit_radps,
+                                            .accel_max_radps2 = omega_radps * limit_radps};
 }
 
 std::string fault_of_rate(const HeadingRateChoice& choice) {
@@ -197,7 +197,9 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
                        "the model has no highest measured yaw rate; give a number in deg/s, or "
                        "yaw_rate_max_degps in vehicle.json");
   }
-  for (Scenario& scenario : scenarios) limit_heading_rate(*limit_degps, scenario);
+  for (Scenario& scenario : scenarios) {
+    limit_heading_rate(*limit_degps, model.vehicle.sample_time_s, scenario);
+  }
   return {};
 }
 

@@ -47,12 +47,16 @@ std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const 
                                               const ModeGains& gains, const std::string& file);
 
 /// Limits the rate of heading commands to `limit_degps`, > 0, by a filter with the bandwidth
-/// kShapingBandwidth_radps (control/guidance/heading_shaping.h). A filter of the scenario keeps its
-/// bandwidth and a smaller rate limit. No effect in open loop.
-void limit_heading_rate(double limit_degps, Scenario& scenario);
+/// kShapingBandwidth_radps, or kShapingSamples/T_s if this is less
+/// (control/guidance/heading_shaping.h). A filter of the scenario keeps its bandwidth and a smaller
+/// rate limit. No effect in open loop. `sample_time_s`: T_s, > 0.
+void limit_heading_rate(double limit_degps, double sample_time_s, Scenario& scenario);
 /// Bandwidth of this filter, rad/s. With a larger bandwidth, the reference follows a heading
 /// command faster.
 inline constexpr double kShapingBandwidth_radps = 4.0;
+/// Largest product of this bandwidth and the sample time. With a larger product, the discrete
+/// filter overshoots (HeadingShaping::omega_radps), and from about 0.9 on it oscillates.
+inline constexpr double kShapingSamples = 0.5;
 
 /// Value of the option --heading-rate-limit. "measured": the highest measured yaw rate of the model
 /// (measured_yaw_rate_degps()); "none": no limit; otherwise a number from 0.1 to 3600 in deg/s.

@@ -79,8 +79,8 @@ bool changes_step_by_step(const Changes& changes, double quantum) {
   return static_cast<double>(multiples) < kRegular * static_cast<double>(gaps.size());
 }
 
-/// True if the values are at least a tenth as many different ones as changes. A coarse sensor, such
-/// as an encoder that counts few ticks per row, has fewer.
+/// True if the number of distinct values is more than a tenth of the number of changes. A coarse
+/// sensor, such as an encoder that counts few ticks per row, has fewer.
 bool has_many_values(std::span<const double> value, const Changes& changes) {
   constexpr double kMany = 0.1;
   std::vector<double> sorted(value.begin(), value.end());
@@ -90,8 +90,10 @@ bool has_many_values(std::span<const double> value, const Changes& changes) {
 }
 
 /// True if the share of `gaps` that are 2 is about the same in all parts of the log: its variance
-/// between blocks is at most twice that of random gaps. The share varies if a value changes when
-/// the vehicle has moved by a step, so that the rate depends on the speed.
+/// between blocks of 40 gaps is at most half the binomial variance, the one of random gaps. (The
+/// rows of a sensor with a fixed rate are more regular than random ones. The share varies if a
+/// value changes when the vehicle has moved by a step, so that the rate depends on the speed.)
+/// Needs at least three blocks.
 bool is_steady_share_of_two(const std::vector<double>& gaps, double share) {
   constexpr std::size_t kBlock = 40;
   double squares = 0.0;
@@ -101,7 +103,9 @@ bool is_steady_share_of_two(const std::vector<double>& gaps, double share) {
     const auto twos = std::count(first, first + static_cast<std::ptrdiff_t>(kBlock), 2.0);
     squares += std::pow(static_cast<double>(twos) / kBlock - share, 2);
   }
-  return squares <= 2.0 * static_cast<double>(blocks) * share * (1.0 - share) / kBlock;
+  constexpr std::size_t kFewest = 3;
+  return blocks >= kFewest &&
+         squares <= 0.5 * static_cast<double>(blocks) * share * (1.0 - share) / kBlock;
 }
 
 /// True for a sensor whose rate is between half the rate of the log and this rate, so that each

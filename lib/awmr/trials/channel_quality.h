@@ -47,11 +47,13 @@ double largest_size(std::span<const double> values);
 /// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the
 /// signal, by row, in any unit. A signal that is constant while `activity` changes is stuck.
 ///
-/// The value of a slow sensor changes only when the sensor has a new reading: after two rows or
-/// more, or sometimes after one and sometimes after two. Only these rows are measurements. The value of a coarse sensor
-/// can change in any row, mostly by one step of the resolution. Each row of a coarse sensor is a
-/// measurement, because an unchanged value means that the signal did not reach the next step. Rows
-/// with spikes, stuck values (except the first row) or saturated values are not measurements.
+/// The value of a slow sensor changes only when the sensor has a new reading. Its rate is at most
+/// half the rate of the log (changes at least two rows apart), or between half and the whole rate
+/// (changes one or two rows apart). Only rows with a new reading are measurements. The value of a
+/// coarse sensor can change in any row, mostly by one step of the resolution. Each row of a coarse
+/// sensor is a measurement, because an unchanged value means that the signal did not reach the next
+/// step. Rows with spikes, stuck values (except the first row) or saturated values are not
+/// measurements.
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity);
 

@@ -179,7 +179,7 @@ Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
   if (choice.empty() && measured_degps) {
     Scenario limited = scenarios.front();
     limited.name += kLedSuffix;
-    limit_heading_rate(*measured_degps, limited);
+    limit_heading_rate(*measured_degps, model.vehicle.sample_time_s, limited);
     scenarios.push_back(std::move(limited));
   }
   if (!options.observer) return scenarios;

@@ -12,9 +12,9 @@
 
 namespace awmr {
 
-/// Number of points from which feasible_gains() searches by default, and number for the searches of
-/// a message, which try many limits.
+/// Default number of points from which feasible_gains() searches.
 inline constexpr int kStarts = 32;
+/// The same for the advice in a refusal, which repeats the search for many limits.
 inline constexpr int kFewStarts = 5;
 
 /// Searches gains within the bounds that meet all constraints which can be evaluated without a

@@ -82,10 +82,10 @@ Heterogeneity heterogeneity(const ByLog& by_log) {
 }
 
 /// Raises the standard error of quantity `i` of the common fit to `std_error`, and sets the
-/// interval by Student's t. A withdrawn interval stays withdrawn. `logs`: number of logs from which `std_error` was computed. A larger
+/// interval by Student's t. `logs`: number of logs from which `std_error` was computed. A larger
 /// standard error of the common fit stays, because it includes the scatter between parts of the
-/// logs.
-void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
+/// logs. Returns false if the interval was withdrawn before; it then stays withdrawn.
+bool widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   const Eigen::Index row = eigen_index(i);
   const double by = std::max(1.0, std_error / fit.error_of(i));
   fit.covariance.row(row) *= by;
@@ -95,9 +95,10 @@ void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   const double error = fit.error_of(i);
   const double half = t_quantile_95(static_cast<double>(logs) - 1.0) * error;
   EstimatorParameter& parameter = fit.report.parameters[i];
-  if (!parameter.ci95) return;
+  if (!parameter.ci95) return false;
   parameter.std_error = q.jacobian(x) * error;
   parameter.ci95 = Interval{q.value(x - half), q.value(x + half)};
+  return true;
 }
 
 /// Selects the rows of a single log from the fraction `from` to the fraction `to` of its duration.
@@ -130,8 +131,9 @@ void widen_partners(std::vector<LogDisagreement>& disagreements, LogFit& fit) {
         disagreements, [&](const LogDisagreement& other) { return other.name == partner; });
     const auto i = place_in(fit, partner);
     if (has_own || !i) continue;
-    widen(*i, std::hypot(fit.error_of(*i), one.spread), one.files.size(), fit);
-    one.partner = partner;
+    if (widen(*i, std::hypot(fit.error_of(*i), one.spread), one.files.size(), fit)) {
+      one.partner = partner;
+    }
   }
 }
 
@@ -146,12 +148,13 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
     if (by_log.files.size() < 2) continue;
     const Heterogeneity between = heterogeneity(by_log);
     if (!(between.p_value < level)) continue;
-    widen(i, between.std_error, by_log.files.size(), common.fit);
+    const bool is_widened = widen(i, between.std_error, by_log.files.size(), common.fit);
     LogDisagreement one{.name = q.name(),
                         .p_value = between.p_value,
                         .files = by_log.files,
                         .values = {},
-                        .spread = between.spread};
+                        .spread = between.spread,
+                        .is_widened = is_widened};
     for (const double x : by_log.coordinates) one.values.push_back(q.value(x));
     one.refuses = common.fit.error_of(i) > kUnknown * q.large_change;
     if (one.refuses) {

@@ -24,6 +24,7 @@ struct LogDisagreement {
   /// Part of the widened standard error (of a logarithm for m' and I'z) that comes from the variance
   /// between logs.
   double spread = 0.0;
+  bool is_widened = false;  ///< false: the interval was withdrawn before
   /// I'z if the logs disagree on m' only, and the reverse: its interval is widened by `spread` too.
   std::optional<std::string> partner = {};
 };

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "awmr/core/containers.h"
@@ -22,7 +23,7 @@
 namespace awmr {
 namespace {
 
-/// Decrease of -2 ln L from which unknown times of the changes are used. It is smaller than the
+/// Decrease of AIC above which unknown times of the changes are used. It is smaller than the
 /// threshold of the families: if the commands do change at their rows, unknown times make the
 /// intervals wider, but not wrong.
 constexpr double kLikelier = 6.0;
@@ -34,8 +35,8 @@ Finding changes_between_rows_finding(const std::string& file) {
           "when it is sent"};
 }
 
-/// -2 ln L of a fit near a point x, as a function of steps d of its coordinates. The optimal initial
-/// states of the windows are already inserted:
+/// -2 ln L of a fit near a point x, as a function of steps d of its coordinates. The optimal
+/// initial states of the windows are already inserted:
 ///
 ///     -2 ln L(x + d) = constant + 2 S^T d + d^T (H + prior) d        (H, S: FitEvidence)
 struct Quadratic {
@@ -80,6 +81,16 @@ Minimum minimum(const Quadratic& of, const std::vector<Eigen::Index>& free) {
   return result;
 }
 
+/// True if each of the coordinates `added`, which start at 0, has a possible value after the step.
+bool are_possible(const Minimum& minimum, std::span<const Eigen::Index> added,
+                  const std::vector<FreeQuantity>& quantities) {
+  return std::ranges::all_of(added, [&](Eigen::Index i) {
+    const FreeQuantity& q = quantities[at(i)];
+    const bool is_positive = q.may_be_zero() || q.kind == FreeQuantity::Kind::kParameter;
+    return !is_positive || minimum.step(i) > 0.0;
+  });
+}
+
 /// Minimum over the first `always` coordinates and those of the others that lower AIC by more than
 /// kTermAicThreshold, added one after the other, the best first.
 Minimum minimum_with_terms(const Quadratic& of, const std::vector<FreeQuantity>& quantities,
@@ -94,8 +105,8 @@ Minimum minimum_with_terms(const Quadratic& of, const std::vector<FreeQuantity>&
       if (contains(free, candidate)) continue;
       free.push_back(candidate);
       Minimum with = minimum(of, free);
+      const bool is_possible = are_possible(with, std::span(free).subspan(always), quantities);
       free.pop_back();
-      const bool is_possible = with.step(candidate) > 0.0 || !quantities[i].may_be_zero();
       if (!is_possible) continue;
       if (!(with.aic < (better ? better->aic : best.aic - kTermAicThreshold))) continue;
       better = std::move(with);

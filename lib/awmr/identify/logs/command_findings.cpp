@@ -72,8 +72,8 @@ bool is_within_rows(const FoundTerm& term, const LogFit& fit) {
          std::abs(term.value) < kShare * fit.change_reach_s + 2.0 * term.error;
 }
 
-/// True for a ramp of the forces that became faster than kShortestRamp_s after it was added to the
-/// fit. It then describes other errors in the timing of the commands.
+/// True for a ramp of the forces faster than kShortestRamp_s. It describes other errors in the
+/// timing of the commands, so it is not reported as a ramp.
 bool is_no_ramp(const FoundTerm& term) {
   return term.quantity.is_ramp() && term.value < kShortestRamp_s;
 }

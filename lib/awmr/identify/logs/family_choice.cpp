@@ -203,13 +203,6 @@ std::set<std::string> names_of_terms(const LogFit& fit) {
   return names;
 }
 
-/// Replaces `result.best` by `other` if the AIC of `other` is significantly lower.
-void replace_if_better(FamilyFit other, BestFamily& result) {
-  if (!(aic_lead(other.fit, result.best.fit) > kFamilyAicThreshold)) return;
-  std::swap(other, result.best);
-  result.others.push_back(std::move(other));
-}
-
 /// Fits Stribeck friction of one axis (yaw if `of_yaw`, else surge) together with Coulomb and
 /// linear friction. Keeps this fit if it is significantly better than `result.best`. A score test
 /// could not find it, because a power law with Coulomb friction resembles Stribeck friction.
@@ -217,12 +210,15 @@ void compete_with_stribeck(const std::vector<DrivingLog>& logs, const LogFitOpti
                            bool of_yaw, BestFamily& result) {
   if (!result.best.fit.usable || result.is_out_of_time) return;
   const LogFitOptions limited = with_limits_for_gain(result.best, logs, power_law);
-  replace_if_better(fit_stribeck(logs, limited, result.best, of_yaw), result);
+  FamilyFit stribeck = fit_stribeck(logs, limited, result.best, of_yaw);
+  if (!(aic_lead(stribeck.fit, result.best.fit) > kFamilyAicThreshold)) return;
+  std::swap(stribeck, result.best);
+  result.others.push_back(std::move(stribeck));
 }
 
 /// Fits Coulomb friction of the surge resistance together with a dead zone if the best fit has a
 /// dead zone, or if it has Coulomb friction and a score test predicts that a dead zone is
-/// significant. Keeps this fit if it is significantly better.
+/// significant. The fit becomes the best one if its AIC is significantly lower.
 void compete_with_dead_zone_and_coulomb(const std::vector<DrivingLog>& logs,
                                         const LogFitOptions& power_law, BestFamily& result) {
   const FamilyFit& best = result.best;
@@ -233,7 +229,9 @@ void compete_with_dead_zone_and_coulomb(const std::vector<DrivingLog>& logs,
   });
   if (!terms.dead_zone && !(gain > kFamilyAicThreshold)) return;
   const LogFitOptions limited = with_limits_for_gain(best, logs, power_law);
-  replace_if_better(fit_from(logs, limited, best, Family::kDeadZoneCoulomb, best.yaw), result);
+  FamilyFit both = fit_from(logs, limited, best, Family::kDeadZoneCoulomb, best.yaw);
+  if (aic_lead(both.fit, best.fit) > kFamilyAicThreshold) std::swap(both, result.best);
+  result.others.push_back(std::move(both));
 }
 
 /// True if the errors of the fit are hardly larger than the sensor noise (LogFit::relative_error
@@ -411,10 +409,16 @@ struct FamilyComparison {
     compete(logs, power_law, of_yaw, others, contest.lead, result);
     if (winners.try_emplace(of_yaw, result.best.fit).second) {
       compete_with_stribeck(logs, power_law, of_yaw, result);
-      if (!of_yaw) compete_with_dead_zone_and_coulomb(logs, power_law, result);
     }
     const bool is_changed = families() != before || names_of_terms(result.best.fit) != terms;
     if (is_changed) search_terms_again(logs, power_law, result);
+  }
+
+  /// The same for Coulomb friction of the surge resistance together with a dead zone.
+  void compare_dead_zone_with_coulomb() {
+    const Families before = families();
+    compete_with_dead_zone_and_coulomb(logs, power_law, result);
+    if (families() != before) search_terms_again(logs, power_law, result);
   }
 };
 
@@ -444,6 +448,7 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
     const auto others = to_compare_again(winner->second, of_yaw, result.best, result.others);
     if (!others.empty()) comparison.compare(of_yaw, others);
   }
+  if (comparison.winners.contains(false)) comparison.compare_dead_zone_with_coulomb();
   search_terms_of_others(logs, power_law, contest.lead, result);
   const std::string& file = logs.front().file;
   for (Finding& finding : undecided_axes(file, result)) {

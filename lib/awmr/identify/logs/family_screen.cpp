@@ -17,7 +17,7 @@ std::vector<Families> other_families(const Families& from, bool of_yaw) {
   std::vector<Families> others;
   for (const Family family : values_in(kFamilyNames)) {
     if (of_yaw && terms_of(family).dead_zone) continue;  // yaw has no dead zone
-    if (family == Family::kDeadZoneCoulomb) continue;    // compared last, in best_family()
+    if (family == Family::kDeadZoneCoulomb) continue;    // compared last in best_family()
     const Families other = of_yaw ? Families{from.surge, family} : Families{family, from.yaw};
     if (other != from) others.push_back(other);
   }

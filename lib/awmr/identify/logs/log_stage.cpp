@@ -123,9 +123,10 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements,
                      : one.refuses
                          ? "An interval for all logs would be too wide, so this quantity gets no "
                            "value; identify each log separately"
-                     : withdrawn ? "Its interval is withdrawn"
-                                 : "Its interval is widened: it covers the mean over such logs, "
-                                   "not an individual log",
+                     : withdrawn || !one.is_widened
+                         ? "Its interval is withdrawn"
+                         : "Its interval is widened: it covers the mean over such logs, "
+                           "not an individual log",
                      partner)});
   }
   return findings;
@@ -283,10 +284,11 @@ void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogSt
   if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
 }
 
-/// Decides whether all intervals are withdrawn, because a term of the fit has a value that no
-/// vehicle has, or because the logs contain set-points of a speed controller.
-void judge_terms(const FamilyFit& chosen, const std::optional<SpeedControl>& speed_control,
-                 const std::string& file, LogStage& stage) {
+/// Withdraws all intervals if a term of the fit has a value that no real vehicle has, or if the logs
+/// contain set-points of a speed controller.
+void withdraw_if_implausible(const FamilyFit& chosen,
+                             const std::optional<SpeedControl>& speed_control,
+                             const std::string& file, LogStage& stage) {
   if (speed_control && speed_control->withdraws) stage.withdraws_intervals = true;
   if (chosen.fit.usable && has_implausible_term(chosen.fit)) stage.withdraws_intervals = true;
   if (chosen.fit.usable && has_impossible_servo(chosen.fit)) {
@@ -347,7 +349,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   }
   FamilyFit chosen = fit_families(logs, power_law, options, std::move(first), stage);
   const auto speed_control = find_speed_control(vehicle, logs, chosen);
-  judge_terms(chosen, speed_control, logs.front().file, stage);
+  withdraw_if_implausible(chosen, speed_control, logs.front().file, stage);
   show_step(options, "comparing the logs with each other");
   const bool has_changed = report_change(logs, power_law, chosen, stage);
   if (!has_changed) compare_parts(logs, chosen, stage);

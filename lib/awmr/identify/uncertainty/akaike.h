@@ -18,8 +18,8 @@ namespace awmr {
 /// same threshold.
 inline constexpr double kFamilyAicThreshold = 20.0;
 
-/// Decrease of AIC above which a log fit uses one more delay, lag, force or error of a command or
-/// sensor, or one of two explanations of the same effect.
+/// Decrease of AIC above which a log fit adds a term (delay, lag, force, or error of a command or
+/// sensor), or prefers one of two explanations.
 inline constexpr double kTermAicThreshold = 10.0;
 
 /// AICc of a fit with n normal residuals, their sum of squares SSE and k = free + 1 estimated
