@@ -16,6 +16,14 @@ std::string text_of(const FamilyChoice& choice) {
   return choice.family ? std::string(name_of(*choice.family)) : std::string("auto");
 }
 
+tl::unexpected<Error> dead_zone_of_yaw(std::string_view name) {
+  return input_error(
+      ErrorCode::kConflict, "--family",
+      fmt::format("a dead zone is a property of the motors, not of the yaw resistance: use "
+                  "surge={}, which also corrects the turning",
+                  name));
+}
+
 }  // namespace
 
 Status add_family(std::string_view text, IdentifyOptions& options) {
@@ -44,13 +52,7 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
   } else if (subject == "surge") {
     options.surge_family = choice;
   } else if (subject == "yaw") {
-    if (choice.family && terms_of(*choice.family).dead_zone) {
-      return input_error(
-          ErrorCode::kConflict, "--family",
-          fmt::format("a dead zone is a property of the motors, not of the yaw resistance: "
-                      "use surge={}, which also corrects the turning",
-                      name));
-    }
+    if (choice.family && terms_of(*choice.family).dead_zone) return dead_zone_of_yaw(name);
     options.yaw_family = choice;
   } else {
     return input_error(

@@ -13,6 +13,10 @@
 namespace awmr::channel_quality_test {
 namespace {
 
+double rounded(double value, double resolution) {
+  return resolution * std::round(value / resolution);
+}
+
 constexpr double kRate_hz = 50.0;
 constexpr std::size_t kRows = 2000;
 
@@ -61,7 +65,7 @@ TEST(ChannelQuality, ASoundSensorCountsInEveryRow) {
 TEST(ChannelQuality, ACoarseEncoderCountsInEveryRow) {
   for (const double quantum : {0.02, 0.05, 0.2}) {
     Drive d = drive(3, 0.01);
-    for (double& u : d.speed) u = quantum * std::round(u / quantum);
+    for (double& u : d.speed) u = rounded(u, quantum);
     const ChannelQuality q = evaluate(d);
     EXPECT_EQ(q.repeats, Repeats::kCoarse) << quantum;
     EXPECT_NEAR(q.quantum, quantum, 1e-9);
@@ -77,10 +81,6 @@ TEST(ChannelQuality, ASlowSensorCountsAtItsOwnRate) {
     EXPECT_EQ(q.repeats, Repeats::kSlow) << every;
     EXPECT_NEAR(static_cast<double>(fresh_rows(q)), kRows / static_cast<double>(every), 2.0);
   }
-}
-
-double rounded(double value, double resolution) {
-  return resolution * std::round(value / resolution);
 }
 
 /// Readings at `rate_hz`, each of which stays in the log until the next one.
@@ -156,7 +156,7 @@ TEST(ChannelQuality, ACoarseSensorWithoutNoiseIsNotTakenForASlowOne) {
     Drive d = drive(6, 0.0);
     for (std::size_t i = 0; i < kRows; ++i) {
       const double t_s = 0.02 * static_cast<double>(i);
-      d.speed[i] = quantum * std::round((1.0 + std::sin(0.4 * t_s)) / quantum);
+      d.speed[i] = rounded(1.0 + std::sin(0.4 * t_s), quantum);
     }
     const ChannelQuality q = evaluate(d);
     EXPECT_EQ(q.repeats, Repeats::kCoarse) << quantum;
@@ -168,7 +168,7 @@ TEST(ChannelQuality, ACoarseSensorWithoutNoiseIsNotTakenForASlowOne) {
 TEST(ChannelQuality, ASlowAndCoarseSensorCountsWhereItRepeatsToo) {
   Drive d = drive(5, 0.0);
   for (std::size_t i = 0; i < kRows; ++i) {
-    d.speed[i] = 0.02 * std::round(d.speed[i / 5 * 5] / 0.02);
+    d.speed[i] = rounded(d.speed[i / 5 * 5], 0.02);
   }
   const ChannelQuality q = evaluate(d);
   EXPECT_EQ(q.repeats, Repeats::kSlow);
@@ -299,7 +299,7 @@ TEST(ChannelQuality, TheEndOfASensorsRangeIsSetAside) {
 std::vector<double> only_changes(const std::vector<double>& signal, double step) {
   std::vector<double> changes;
   for (const double x : signal) {
-    const double reading = step * std::round(x / step);
+    const double reading = rounded(x, step);
     if (changes.empty() || reading != changes.back()) changes.push_back(reading);
   }
   return changes;
@@ -315,8 +315,8 @@ TEST(ChannelQuality, KnowsReadingsThatWereWrittenOnlyWhenTheyChanged) {
   std::vector<double> regular;
   std::vector<double> fast;
   for (int i = 0; i < 3000; ++i) {
-    regular.push_back(kStep * std::round(slow[static_cast<std::size_t>(i)] / kStep));
-    fast.push_back(kStep * std::round(std::sin(0.7 * i) / kStep));
+    regular.push_back(rounded(slow[static_cast<std::size_t>(i)], kStep));
+    fast.push_back(rounded(std::sin(0.7 * i), kStep));
   }
   EXPECT_EQ(resolution_of_changes(regular), 0.0);
   EXPECT_EQ(resolution_of_changes(slow), 0.0);

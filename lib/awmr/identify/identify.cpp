@@ -140,14 +140,6 @@ SubjectOptions subject_options(const IdentifyOptions& options, Method method,
           .keeps_outliers = options.keeps_outliers};
 }
 
-/// Family of the yaw fit. It has no dead zone, because the wheels' dead zone is identified from the
-/// surge runs and subtracted from the forces of the turning runs.
-FamilyChoice yaw_family(const IdentifyOptions& options) {
-  FamilyChoice choice = options.yaw_family;
-  if (choice.family) choice.family = without_dead_zone(*choice.family);
-  return choice;
-}
-
 template <class Step>
 void record(Step& step, Model& model) {
   std::move(step.reports.begin(), step.reports.end(), std::back_inserter(model.record.reports));
@@ -219,8 +211,9 @@ SubjectFit identify_laws(const Vehicle& vehicle, const TrialData& data,
     const double dead_zone = *values.model[ParameterId::kWheelDeadZone].value;
     const Subject yaw = yaw_subject(vehicle, *data.turning, dead_zone);
     reasons.turning =
-        identify_law(yaw, fit_subject(yaw, subject_options(options, method, yaw_family(options))),
-                     compare_sides(yaw, *data.turning), values)
+        identify_law(
+            yaw, fit_subject(yaw, subject_options(options, method, options.fitted_yaw_family())),
+            compare_sides(yaw, *data.turning), values)
             .refusal_reason;
   }
   return surge;

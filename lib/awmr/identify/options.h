@@ -94,6 +94,13 @@ struct IdentifyOptions {
   std::optional<ErrorModel> noise = {};
   FamilyChoice surge_family = {};
   FamilyChoice yaw_family = {};
+  /// yaw_family as it is fitted: without a dead zone, which belongs to the motors. In tables, it is
+  /// identified from the surge runs and subtracted from the forces of the turning runs.
+  FamilyChoice fitted_yaw_family() const {
+    FamilyChoice choice = yaw_family;
+    if (choice.family) choice.family = without_dead_zone(*choice.family);
+    return choice;
+  }
   Loss loss = Loss::kSquared;
   /// Fits the surge law (coefficient a1, exponent b1) and the mass m' together to the surge rows
   /// and the coast-down curves, so that the curves also improve a1 and b1.

@@ -14,16 +14,19 @@ namespace {
 /// resolution. If fewer do, the steps between values come only from the decimal places in the file.
 constexpr double kSomeRepeats = 0.2;
 
-/// Rows at which the value changes, and the magnitude of each change.
+/// Rows at which the value changes, the magnitude of each change, and the number of rows from each
+/// change to the next.
 struct Changes {
   std::vector<std::size_t> row;
   std::vector<double> step;
+  std::vector<double> gap;  ///< one fewer than changes
 };
 
 Changes changes_of(std::span<const double> value) {
   Changes changes;
   for (std::size_t i = 1; i < value.size(); ++i) {
     if (value[i] == value[i - 1]) continue;
+    if (!changes.row.empty()) changes.gap.push_back(static_cast<double>(i - changes.row.back()));
     changes.row.push_back(i);
     changes.step.push_back(std::abs(value[i] - value[i - 1]));
   }
@@ -47,15 +50,6 @@ double quantum_of(const Changes& changes) {
   return grid && median(steps) < kMostlySteps ? smallest : 0.0;
 }
 
-/// Number of rows between successive changes.
-std::vector<double> gaps_of(const Changes& changes) {
-  std::vector<double> gaps;
-  for (std::size_t i = 1; i < changes.row.size(); ++i) {
-    gaps.push_back(static_cast<double>(changes.row[i] - changes.row[i - 1]));
-  }
-  return gaps;
-}
-
 /// True for a coarse sensor without noise: at least 95 % of the changes are one step of the
 /// resolution, and fewer than 80 % of the gaps between changes are multiples of one interval. (The
 /// changes of a slow sensor are at multiples of its sample interval.)
@@ -71,62 +65,11 @@ bool changes_step_by_step(const Changes& changes, double quantum) {
   if (static_cast<double>(single) < kNearlyAll * static_cast<double>(changes.step.size())) {
     return false;
   }
-  const std::vector<double> gaps = gaps_of(changes);
-  const double interval = quantile(gaps, 0.05);
-  const auto multiples = std::ranges::count_if(gaps, [&](double gap) {
+  const double interval = quantile(changes.gap, 0.05);
+  const auto multiples = std::ranges::count_if(changes.gap, [&](double gap) {
     return std::abs(gap - interval * std::round(gap / interval)) <= kOffMultiple * interval;
   });
-  return static_cast<double>(multiples) < kRegular * static_cast<double>(gaps.size());
-}
-
-/// True if the number of distinct values is more than a tenth of the number of changes. A coarse
-/// sensor, such as an encoder that counts few ticks per row, has fewer.
-bool has_many_values(std::span<const double> value, const Changes& changes) {
-  constexpr double kMany = 0.1;
-  std::vector<double> sorted(value.begin(), value.end());
-  std::sort(sorted.begin(), sorted.end());
-  const auto different = std::unique(sorted.begin(), sorted.end()) - sorted.begin();
-  return static_cast<double>(different) > kMany * static_cast<double>(changes.row.size());
-}
-
-/// True if the share of `gaps` that are 2 is about the same in all parts of the log: its variance
-/// between blocks of 40 gaps is at most half the binomial variance, the one of random gaps. (The
-/// rows of a sensor with a fixed rate are more regular than random ones. The share varies if a
-/// value changes when the vehicle has moved by a step, so that the rate depends on the speed.)
-/// Needs at least three blocks.
-bool is_steady_share_of_two(const std::vector<double>& gaps, double share) {
-  constexpr std::size_t kBlock = 40;
-  double squares = 0.0;
-  std::size_t blocks = 0;
-  for (std::size_t begin = 0; begin + kBlock <= gaps.size(); begin += kBlock, ++blocks) {
-    const auto first = gaps.begin() + static_cast<std::ptrdiff_t>(begin);
-    const auto twos = std::count(first, first + static_cast<std::ptrdiff_t>(kBlock), 2.0);
-    squares += std::pow(static_cast<double>(twos) / kBlock - share, 2);
-  }
-  constexpr std::size_t kFewest = 3;
-  return blocks >= kFewest &&
-         squares <= 0.5 * static_cast<double>(blocks) * share * (1.0 - share) / kBlock;
-}
-
-/// True for a sensor whose rate is between half the rate of the log and this rate, so that each
-/// reading stands in one or two rows, at least a tenth of them in two:
-///   - nine tenths of the changes are one or two rows apart, with is_steady_share_of_two();
-///   - changes two rows apart are at least four times as many as the resolution explains. (Readings
-///     with normal noise whose changes have the median m are rounded to equal values with a
-///     probability of 0.27 r/m, for the resolution r.)
-bool is_in_one_or_two_rows(std::span<const double> value, const Changes& changes) {
-  constexpr double kSome = 0.1;
-  constexpr double kTimes = 4.0;
-  constexpr double kPerResolution = 0.27;
-  const std::vector<double> gaps = gaps_of(changes);
-  const auto once = static_cast<double>(std::ranges::count(gaps, 1.0));
-  const auto twice = static_cast<double>(std::ranges::count(gaps, 2.0));
-  const auto count = static_cast<double>(gaps.size());
-  if (once + twice < (1.0 - kSome) * count || !has_many_values(value, changes)) return false;
-  const double resolution = *std::ranges::min_element(changes.step);
-  const double by_chance = kPerResolution * resolution / median(changes.step);
-  const double share = twice / count;
-  return share > std::max(kSome, kTimes * by_chance) && is_steady_share_of_two(gaps, share);
+  return static_cast<double>(multiples) < kRegular * static_cast<double>(changes.gap.size());
 }
 
 /// Marks the rows in which a slow sensor has a new reading: those in which the value changes. If
@@ -136,7 +79,7 @@ bool is_in_one_or_two_rows(std::span<const double> value, const Changes& changes
 std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
   std::vector<bool> fresh(rows, false);
   fresh[0] = true;
-  const auto usual = static_cast<std::size_t>(std::max(2.0, median(gaps_of(changes))));
+  const auto usual = static_cast<std::size_t>(std::max(2.0, median(changes.gap)));
   for (std::size_t k = 0; k < changes.row.size(); ++k) {
     const std::size_t end = k + 1 < changes.row.size() ? changes.row[k + 1] : rows;
     for (std::size_t i = changes.row[k]; i + usual / 2 < end || i == changes.row[k]; i += usual) {
@@ -333,6 +276,53 @@ Levels levels_of(std::vector<double> value, double rest) {
   return levels;
 }
 
+/// True if the number of distinct values is more than a tenth of the number of changes. A coarse
+/// sensor, such as an encoder that counts few ticks per row, has fewer.
+bool has_many_values(std::span<const double> value, const Changes& changes) {
+  constexpr double kMany = 0.1;
+  const Levels levels = levels_of({value.begin(), value.end()}, 0.0);
+  return static_cast<double>(levels.count) > kMany * static_cast<double>(changes.row.size());
+}
+
+/// True if the share of `gaps` that are 2 is about the same in all parts of the log: its variance
+/// between blocks of 40 gaps is at most half the binomial variance, the one of random gaps. (The
+/// rows of a sensor with a fixed rate are more regular than random ones. The share varies if a
+/// value changes when the vehicle has moved by a step, so that the rate depends on the speed.)
+/// Needs at least three blocks.
+bool is_steady_share_of_two(const std::vector<double>& gaps, double share) {
+  constexpr std::size_t kBlock = 40;
+  double squares = 0.0;
+  std::size_t blocks = 0;
+  for (std::size_t begin = 0; begin + kBlock <= gaps.size(); begin += kBlock, ++blocks) {
+    const auto first = gaps.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto twos = std::count(first, first + static_cast<std::ptrdiff_t>(kBlock), 2.0);
+    squares += std::pow(static_cast<double>(twos) / kBlock - share, 2);
+  }
+  constexpr std::size_t kFewest = 3;
+  return blocks >= kFewest &&
+         squares <= 0.5 * static_cast<double>(blocks) * share * (1.0 - share) / kBlock;
+}
+
+/// True for a sensor whose rate is between half the rate of the log and this rate, so that each
+/// reading stands in one or two rows, at least a tenth of them in two:
+///   - nine tenths of the changes are one or two rows apart, with is_steady_share_of_two();
+///   - changes two rows apart are at least four times as many as the resolution explains. (Readings
+///     with normal noise whose changes have the median m are rounded to equal values with a
+///     probability of 0.27 r/m, for the resolution r.)
+bool is_in_one_or_two_rows(std::span<const double> value, const Changes& changes) {
+  constexpr double kSome = 0.1;
+  constexpr double kTimes = 4.0;
+  constexpr double kPerResolution = 0.27;
+  const auto once = static_cast<double>(std::ranges::count(changes.gap, 1.0));
+  const auto twice = static_cast<double>(std::ranges::count(changes.gap, 2.0));
+  const auto count = static_cast<double>(changes.gap.size());
+  if (once + twice < (1.0 - kSome) * count || !has_many_values(value, changes)) return false;
+  const double resolution = *std::ranges::min_element(changes.step);
+  const double by_chance = kPerResolution * resolution / median(changes.step);
+  const double share = twice / count;
+  return share > std::max(kSome, kTimes * by_chance) && is_steady_share_of_two(changes.gap, share);
+}
+
 /// Finds saturation of the sensor. Criterion: the largest or the smallest value of the channel
 /// occurs at least four times as often as any value between these two. It must occur in at least 8
 /// rows and 0.5 % of the rows. Leaves out rows without a command, because a vehicle at rest also
@@ -398,7 +388,7 @@ ChannelQuality find_repeats(std::span<const double> value) {
   const double quantum = quantum_of(changes);
   // The sensor is slower than the log if 95 % of the changes are at least two rows apart.
   const bool is_slow =
-      (quantile(gaps_of(changes), 0.05) >= 2.0 && !changes_step_by_step(changes, quantum)) ||
+      (quantile(changes.gap, 0.05) >= 2.0 && !changes_step_by_step(changes, quantum)) ||
       (quantum == 0.0 && is_in_one_or_two_rows(value, changes));
   if (is_slow) {
     quality.repeats = Repeats::kSlow;

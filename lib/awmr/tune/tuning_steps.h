@@ -59,9 +59,9 @@ struct SettledGains {
 SettledGains settle(const TuneOptions& options, const ConstraintContext& context,
                     const Objective& searched, const Objective& all, const Candidate& best);
 
-/// Returns the constraints that are active at `best` (within 1 % of the limit). For each, a local
-/// search finds by how much the objective improves if the constraint is relaxed by kWider. Errors:
-/// those of search().
+/// Returns the constraints that are active at `best` (within 1 % of the limit), each with the
+/// improvement of the objective by a local search in which this constraint is relaxed by kWider.
+/// Errors: those of search().
 Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& options,
                                                          const ConstraintContext& context,
                                                          const Objective& objective,

@@ -148,12 +148,13 @@ struct UncertainTimes {
 /// of the problem and `always` are free, and those of `optional` that lower AIC
 /// (minimum_with_terms()).
 UncertainTimes uncertain_times(const LogProblem& problem, const SearchPoint& point,
-                               std::vector<FreeQuantity> always,
+                               const std::vector<FreeQuantity>& always,
                                const std::vector<FreeQuantity>& optional) {
-  const std::size_t n_always = problem.model.quantities.size() + always.size();
-  append(always, optional);
+  std::vector<FreeQuantity> more = always;
+  append(more, optional);
   Extended with =
-      extended(with_white_noise(problem), point, always, std::vector<double>(always.size(), 0.0));
+      extended(with_white_noise(problem), point, more, std::vector<double>(more.size(), 0.0));
+  const std::size_t n_always = problem.model.quantities.size() + always.size();
   bool any = false;
   for (FitWindow& window : with.problem.windows) {
     if (window.changes.empty()) window.changes = changes_before_rows(window.rows);

@@ -65,7 +65,7 @@ FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOpti
   show_step(options, "fitting the logs");
   announce(options, numbers_of_first_fit(logs, power_law), "fitting logs of this length");
   const Family surge = options.surge_family.family.value_or(Family::kPower);
-  const Family yaw = without_dead_zone(options.yaw_family.family.value_or(Family::kPower));
+  const Family yaw = options.fitted_yaw_family().family.value_or(Family::kPower);
   const OpenAxes open = open_axes(power_law, options);
   if (!open.any()) return fit_family(logs, power_law, surge, yaw);
   LogFitOptions first = power_law;
