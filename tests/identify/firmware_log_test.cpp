@@ -70,6 +70,21 @@ std::vector<double> tracked_rate(const std::vector<double>& position, double h_s
   return rates;
 }
 
+/// Distance or angle (the integral of the channel) at every `every`-th state.
+std::vector<double> positions_of(const std::vector<State<double>>& states, LogChannel channel,
+                                 std::size_t every) {
+  std::vector<double> positions;
+  double exact = 0.0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (i > 0) {
+      exact +=
+          0.5 * kFastStep_s * (channel_of(states[i - 1], channel) + channel_of(states[i], channel));
+    }
+    if (i % every == 0) positions.push_back(exact);
+  }
+  return positions;
+}
+
 /// Log with rows every `every` fast rows, whose speed and yaw rate come from alpha-beta filters of
 /// the distance and the angle, which have white noise (m, rad).
 DrivingLog tracked_log(std::size_t every, double alpha, double beta, double noise_std) {
@@ -78,15 +93,8 @@ DrivingLog tracked_log(std::size_t every, double alpha, double beta, double nois
   Random random(4, 2);
   std::map<LogChannel, std::vector<double>> rates;
   for (const LogChannel channel : kSpeedAndYawRate) {
-    std::vector<double> position;
-    double exact = 0.0;
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      if (i > 0) {
-        exact += 0.5 * kFastStep_s *
-                 (channel_of(states[i - 1], channel) + channel_of(states[i], channel));
-      }
-      if (i % every == 0) position.push_back(exact + noise_std * random.normal());
-    }
+    std::vector<double> position = positions_of(states, channel, every);
+    for (double& one : position) one += noise_std * random.normal();
     rates[channel] = tracked_rate(position, kFastStep_s * static_cast<double>(every), alpha, beta);
   }
   return thinned(fast, every, kSpeedAndYawRate,
@@ -102,6 +110,41 @@ TEST(FirmwareLog, SpeedAndYawRateOfATrackingFilterAreAllowedFor) {
   const auto lag = estimated(result, "lag.speed_mps");
   ASSERT_TRUE(lag && lag->std_error);
   EXPECT_NEAR(lag->value, 0.0842, 4.0 * *lag->std_error);
+  expect_vehicle_of_log(result);
+}
+
+/// Log with rows every `every` fast rows, at which the commands change. The speed is the distance in
+/// whole counts of `count_m` since the row before, divided by the time; the yaw rate is that of a
+/// gyroscope.
+DrivingLog counted_log(std::size_t every, double count_m) {
+  DrivingLog fast = fast_drive(20.0);
+  for (std::size_t i = 0; i < fast.rows(); ++i) {
+    const std::size_t from = i - i % every;
+    fast.force_left[i] = fast.force_left[from];
+    fast.force_right[i] = fast.force_right[from];
+    (*fast.steering_command_rad)[i] = (*fast.steering_command_rad)[from];
+  }
+  const std::vector<State<double>> states = motion_of(fast);
+  std::vector<double> counted_m = positions_of(states, LogChannel::kSpeed, every);
+  for (double& one : counted_m) one = count_m * std::floor(one / count_m);
+  const double row_s = kFastStep_s * static_cast<double>(every);
+  const Reading gyroscope = noisy(states, 0.005);
+  return thinned(fast, every, kSpeedAndYawRate, [&](LogChannel channel, std::size_t i) {
+    if (channel == LogChannel::kYawRate) return gyroscope(channel, i);
+    const std::size_t row = i / every;
+    return row == 0 ? 0.0 : (counted_m[row] - counted_m[row - 1]) / row_s;
+  });
+}
+
+TEST(FirmwareLog, SpeedOfEncoderCountsIsTheMeanSinceTheRowBefore) {
+  const Identification result = fit_of_firmware(counted_log(10, 2e-4));
+  EXPECT_TRUE(has_finding(result, "averaged-channel"));
+  for (const char* wrong : {"sensor-lag", "sensor-delay", "actuator-lag", "smoothed-channel"}) {
+    EXPECT_FALSE(has_finding(result, wrong)) << wrong;
+  }
+  const auto averaging = estimated(result, "averaging.speed_mps");
+  ASSERT_TRUE(averaging && averaging->std_error);
+  EXPECT_NEAR(averaging->value, 0.04, 4.0 * *averaging->std_error);
   expect_vehicle_of_log(result);
 }
 

@@ -1,7 +1,7 @@
 /// Names, in /estimates of model.json, of effects that the model lacks and that a fit of logs can
 /// estimate. Steering: trim, dead band, asymmetry, curve, scale, largest rate of the servo. Motors:
 /// imbalance of left and right, nonlinear force. Forces on the vehicle: Stribeck friction, slope of
-/// the ground, ... Sensors: delay, filter, smoothing, wheel slip, mounting.
+/// the ground, ... Sensors: delay, averaging, filter, smoothing, wheel slip, mounting.
 #pragma once
 
 #include <array>
@@ -45,6 +45,8 @@ inline constexpr std::array<std::string_view, 14> kExtraForceNames = {
     "axle.offset_m"};
 inline constexpr std::string_view kSensorDelayPrefix =
     "delay.";  ///< followed by the channel's column name
+inline constexpr std::string_view kAveragingPrefix =
+    "averaging.";  ///< followed by the channel's column name
 inline constexpr std::string_view kSensorLagPrefix =
     "lag.";  ///< followed by the channel's column name
 inline constexpr std::string_view kLagDampingPrefix =

@@ -42,9 +42,10 @@ bool is_estimated_name(std::string_view name) {
          name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
          name == kQuadraticOverSurgeName || contains(kExtraForceNames, name) ||
          name.starts_with(kBiasPrefix) || name.starts_with(kSensorDelayPrefix) ||
-         name.starts_with(kSensorLagPrefix) || name.starts_with(kLagDampingPrefix) ||
-         name.starts_with(kSmoothingPrefix) || name.starts_with(kSensorScalePrefix) ||
-         name.starts_with(kSlipPrefix) || name.starts_with(kSlipRatioPrefix);
+         name.starts_with(kAveragingPrefix) || name.starts_with(kSensorLagPrefix) ||
+         name.starts_with(kLagDampingPrefix) || name.starts_with(kSmoothingPrefix) ||
+         name.starts_with(kSensorScalePrefix) || name.starts_with(kSlipPrefix) ||
+         name.starts_with(kSlipRatioPrefix);
 }
 
 int count(JsonObject& json, std::string_view key) {

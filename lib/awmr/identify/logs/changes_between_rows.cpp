@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "awmr/identify/logs/back_emf.h"
 #include "awmr/identify/logs/further_terms.h"
 #include "awmr/identify/logs/information.h"
+#include "awmr/identify/logs/log_setup.h"
 #include "awmr/identify/logs/model_choice.h"
 #include "awmr/identify/logs/score_test.h"
 #include "awmr/identify/logs/uncertain_changes.h"
@@ -207,6 +209,35 @@ LogFitOptions options_from(const FamilyFit& at_rows, const LogFitOptions& power_
   return from;
 }
 
+/// Adds averaging of speed and yaw rate over one row, unless a filter of the channel is a term.
+LogFitOptions with_averaging(LogFitOptions options, const std::vector<DrivingLog>& logs) {
+  for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
+    const FreeQuantity averaging = free_term(FreeQuantity::Kind::kAveraging, channel);
+    const bool has_other = std::ranges::any_of(options.terms, [&](const FreeTerm& term) {
+      return term.quantity.name() == averaging.name() ||
+             term.quantity.name() == sensor_lag_of(channel).name();
+    });
+    if (!is_logged(logs, {channel}) || has_other) continue;
+    options.terms.push_back({averaging, logs.front().median_step_s()});
+  }
+  return options;
+}
+
+/// AIC of `between`, a fit with unknown times of the changes, compared with that of fits with the
+/// same terms and changes at the rows: by how much it is lower than the lowest of these. One of them
+/// has averaging too, because the speed of an encoder is the mean since the row before, so it
+/// responds to a change at a row as if the change were between the rows.
+double lead_over_rows(const FamilyFit& between, const std::vector<DrivingLog>& logs,
+                      const LogFitOptions& power_law) {
+  const LogFitOptions options = from_optimum(with_back_emf_as_in(between, power_law), between);
+  double lead = std::numeric_limits<double>::infinity();
+  for (const LogFitOptions& one : {options, with_averaging(options, logs)}) {
+    const FamilyFit at_rows = fit_family(logs, one, between.surge, between.yaw);
+    lead = std::min(lead, aic_lead(between.fit, at_rows.fit));
+  }
+  return lead;
+}
+
 }  // namespace
 
 bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& point,
@@ -256,12 +287,10 @@ FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
   LogFitOptions from = options_from(at_rows, power_law, logs.front().median_step_s());
   from.effort = std::make_shared<Effort>(power_law.effort->left() / kEffortShare);
   between.fit = fit_first_family(between.logs, from, options);
-  at_rows = fit_family(logs, from_optimum(with_back_emf_as_in(between.fit, power_law), between.fit),
-                       between.fit.surge, between.fit.yaw);
+  const double lead = lead_over_rows(between.fit, logs, power_law);
   between.fit.options.effort = power_law.effort;
   if (!from.effort->is_over() && between.fit.fit.usable &&
-      are_times_between_rows(between.fit.fit.change_times) &&
-      aic_lead(between.fit.fit, at_rows.fit) > kLikelier) {
+      are_times_between_rows(between.fit.fit.change_times) && lead > kLikelier) {
     between.findings.push_back(changes_between_rows_finding(logs.front().file));
     return between;
   }

@@ -169,6 +169,14 @@ std::string sensor_delay_text(const FoundTerm& delay, const LogFit&) {
       is_position ? "comes" : "is read", delay.value, delay.error);
 }
 
+std::string averaging_text(const FoundTerm& time, const LogFit&) {
+  return fmt::format(
+      "{} is the mean of the last {:.3f} +- {:.3f} s, as if a program divided counts or an angle "
+      "by this time. The fit takes this into account; add half of this time to latency_s in the "
+      "vehicle file, so that the gains are tuned for the delay",
+      info(time.quantity.channel).name, time.value, time.error);
+}
+
 std::string sensor_lag_text(const FoundTerm& lag, const LogFit& fit) {
   const auto damping = fit.value_of(free_term(Kind::kLagDamping, lag.quantity.channel).name());
   return fmt::format(
@@ -429,6 +437,7 @@ struct TermFinding {
 /// In the order of the findings in model.json. Delay and lag of all commands: actuator_findings().
 constexpr TermFinding kTermFindings[] = {
     {Kind::kSensorDelay, "sensor-delay", sensor_delay_text},
+    {Kind::kAveraging, "averaged-channel", averaging_text},
     {Kind::kSensorLag, "sensor-lag", sensor_lag_text},
     {Kind::kSmoothing, "smoothed-channel", smoothing_text},
     {Kind::kSensorScale, "sensor-scale", sensor_scale_text},

@@ -172,7 +172,9 @@ class TermTrials {
       consider_motor_lag(found_s);
       delay_s_ = found_s;
     }
-    if (found_s > 0.0 && is_sensor && is_often_filtered(more.channel)) {
+    const bool is_averaged =
+        has_kind(settled_.problem.model.quantities, Kind::kAveraging, more.channel);
+    if (found_s > 0.0 && is_sensor && is_often_filtered(more.channel) && !is_averaged) {
       filters_.emplace_back(more.channel, found_s);
     }
   }
@@ -215,12 +217,17 @@ class TermTrials {
 
   /// Tries a low-pass filter in place of the delay of each channel in filters_, with the same delay
   /// as the initial guess. Each channel gets four trials: filters of first and of second order,
-  /// both continuous or with a step per row.
+  /// both continuous or with a step per row. Before them, averaging over twice the delay is tried:
+  /// it has as many parameters as the delay, so the likelier of both is used.
   void consider_filters() {
     // If the speed is the only channel, its filter has the same effect as a motor lag, which is
     // more common and therefore preferred.
     if (settled_.problem.model.noise.size() <= 1) return;
     for (const auto& [channel, lag_s] : filters_) {
+      if (is_often_counted(channel)) {
+        const FreeQuantity averaging = free_term(Kind::kAveraging, channel);
+        lowest_.consider(trial({{averaging, 2.0 * lag_s}}));
+      }
       NoiseIteration best = trial({{sensor_lag_of(channel), lag_s}});
       for (const std::vector<FreeTerm>& other :
            {std::vector<FreeTerm>{{sensor_lag_of(channel, true), lag_s}},
@@ -233,17 +240,22 @@ class TermTrials {
   }
 
   /// Tries filters of second order of speed and yaw rate together in place of a delay of the
-  /// commands, because one program (an odometry or tracking filter) often computes both. A filter
-  /// of only one of them cannot replace a delay that both show.
+  /// commands, because one program (an odometry or tracking filter) often computes both; also
+  /// averaging of both. A filter of only one of them cannot replace a delay that both show.
   void consider_filters_of_both() {
+    std::vector<FreeTerm> filters;
+    std::vector<FreeTerm> filters_at_rows;
+    std::vector<FreeTerm> averaging;
     const LogModel& model = settled_.problem.model;
-    for (const bool is_at_rows : {false, true}) {
-      std::vector<FreeTerm> both;
-      for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
-        if (!model.noise.contains(channel)) return;
-        if (has_kind(model.quantities, Kind::kSensorLag, channel)) return;
-        append(both, second_order_lag_of(channel, delay_s_, is_at_rows));
-      }
+    for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
+      if (!model.noise.contains(channel)) return;
+      if (has_kind(model.quantities, Kind::kSensorLag, channel)) return;
+      if (has_kind(model.quantities, Kind::kAveraging, channel)) return;
+      append(filters, second_order_lag_of(channel, delay_s_));
+      append(filters_at_rows, second_order_lag_of(channel, delay_s_, true));
+      averaging.push_back({free_term(Kind::kAveraging, channel), 2.0 * delay_s_});
+    }
+    for (const auto& both : {averaging, filters, filters_at_rows}) {
       lowest_.consider(trial(both), kLikelierFilter);
     }
   }
@@ -266,6 +278,25 @@ class TermTrials {
       if (!is_mean && is_first && is_beyond_doubt(first)) strongest_ = all;
       lowest_.consider(std::move(all));
       if (smoothing.size() > 1) lowest_.consider(trial({smoothing.front()}));
+    }
+    consider_averaging();
+  }
+
+  /// Tries averaging in place of a smoothing with the same variance L^2/12. A delay of the channel
+  /// starts lower by L/2, the delay of the mean.
+  void consider_averaging() {
+    for (const CandidateTerm& term : terms_) {
+      const LogChannel channel = term.quantity.channel;
+      if (term.quantity.kind != Kind::kSmoothing || !is_often_counted(channel)) continue;
+      if (term.significance < kComparable * terms_.front().significance) return;
+      const double averaging_s = std::sqrt(12.0 * term.value);
+      const std::vector<FreeQuantity>& quantities = start_.problem.model.quantities;
+      NoiseIteration from = start_;
+      if (const auto i = place_of(quantities, free_term(Kind::kSensorDelay, channel).name())) {
+        double& delay_s = from.point.coordinates[*i];
+        delay_s = std::max(0.0, delay_s - 0.5 * averaging_s);
+      }
+      lowest_.consider(tried(from, {{free_term(Kind::kAveraging, channel), averaging_s}}));
     }
   }
 
@@ -306,12 +337,23 @@ std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled) {
   return more && !has_wrong_term(*more, settled) ? std::move(more) : std::nullopt;
 }
 
+/// Returns a fit in which averaging replaces the filters of speed and yaw rate, with one more term
+/// if that is necessary to lower AIC. Reason: the search may add a filter before it knows the delays
+/// that remain beside the averaging. Empty if AIC does not decrease.
+std::optional<NoiseIteration> with_averaging(const NoiseIteration& settled) {
+  std::optional<NoiseIteration> fit = with_averaging_for_filters(settled);
+  if (fit && akaike_of(*fit) >= akaike_of(settled)) fit = with_one_more(*fit);
+  if (fit && akaike_of(*fit) >= akaike_of(settled)) return std::nullopt;
+  return fit;
+}
+
 /// Returns a fit with one more free term: a candidate of the score tests, else a slower servo, else
-/// a motor lag. Empty if none of them lowers AIC enough.
+/// a motor lag, else averaging in place of filters. Empty if none of them lowers AIC enough.
 std::optional<NoiseIteration> with_next_term(const NoiseIteration& settled) {
   if (auto more = with_one_more(settled)) return more;
   if (auto more = with_slower_servo(settled)) return more;
-  return with_motor_lag_and_delay(settled);
+  if (auto more = with_motor_lag_and_delay(settled)) return more;
+  return with_averaging(settled);
 }
 
 }  // namespace

@@ -71,6 +71,7 @@ void add_times(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   if (found.size() == 1) found.clear();
   for (const auto& [channel, noise] : problem.model.noise) {
     if (is_often_filtered(channel) && !has_kind(quantities, Kind::kSensorLag, channel) &&
+        !has_kind(quantities, Kind::kAveraging, channel) &&
         !has_kind(quantities, Kind::kSmoothing, channel)) {
       found.push_back(smoothing_of(channel));
     }
@@ -198,6 +199,7 @@ std::vector<FreeQuantity> all_terms() {
     terms.push_back(sensor_lag_of(channel));
     terms.push_back(smoothing_of(channel));
     if (channel == LogChannel::kHeading) continue;
+    terms.push_back(free_term(Kind::kAveraging, channel));
     terms.push_back(free_term(Kind::kSensorScale, channel));
     for (const bool is_ratio : {false, true}) terms.push_back(wheel_slip_of(channel, is_ratio));
   }
@@ -235,6 +237,10 @@ void add_motors(const LogProblem& problem, std::vector<FreeQuantity>& found) {
 bool is_often_filtered(LogChannel channel) {
   return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate ||
          channel == LogChannel::kHeading;
+}
+
+bool is_often_counted(LogChannel channel) {
+  return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate;
 }
 
 std::vector<FreeQuantity> further_terms(const LogProblem& problem) {

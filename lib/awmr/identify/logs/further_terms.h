@@ -36,6 +36,9 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem);
 /// True for channels that programs often filter before logging: speed, yaw rate and heading.
 bool is_often_filtered(LogChannel channel);
 
+/// True for channels that programs often compute from counts of encoders: speed and yaw rate.
+bool is_often_counted(LogChannel channel);
+
 /// The terms that the user requested by these names (IdentifyOptions::terms), with initial guesses.
 /// Ignores names that are not requestable_terms().
 std::vector<FreeTerm> requested_terms(std::span<const std::string> names);

@@ -1,6 +1,8 @@
 #include "awmr/identify/logs/linear_replay.h"
 
 #include <algorithm>
+#include <cmath>
+#include <tuple>
 
 #include "awmr/trials/replay.h"
 
@@ -58,6 +60,61 @@ void step_along(const LogSignals& signals, std::size_t row, const ActingRows& ro
     }
     stepper.step(command, h, motion);
   }
+}
+
+/// Rates of the pose: x_dot = u cos psi - v sin psi, y_dot = u sin psi + v cos psi, psi_dot = r.
+struct PoseRates {
+  explicit PoseRates(const State<double>& s)
+      : cosine(std::cos(s.psi_rad)),
+        sine(std::sin(s.psi_rad)),
+        x(s.u_mps * cosine - s.v_mps * sine),
+        y(s.u_mps * sine + s.v_mps * cosine),
+        psi(s.r_radps) {}
+
+  /// Changes of x_dot and y_dot by changes of u, v and psi.
+  double x_by(double u, double v, double heading) const {
+    return cosine * u - sine * v - y * heading;
+  }
+  double y_by(double u, double v, double heading) const {
+    return sine * u + cosine * v + x * heading;
+  }
+
+  double cosine, sine;
+  double x, y, psi;
+};
+
+/// Adds `factor` times the derivatives of the pose rates at the motion `of` to those of the pose.
+void add_by_column(const LinearMotion& of, double factor, std::size_t columns, LinearMotion& to) {
+  const PoseRates rates(of.state);
+  for (std::size_t c = 0; c < columns; ++c) {
+    const double u = of.row(LogChannel::kSpeed, columns)[c];
+    const double v = of.row(LogChannel::kSway, columns)[c];
+    const double heading = of.row(LogChannel::kHeading, columns)[c];
+    to.row(LogChannel::kX, columns)[c] += factor * rates.x_by(u, v, heading);
+    to.row(LogChannel::kY, columns)[c] += factor * rates.y_by(u, v, heading);
+    to.row(LogChannel::kHeading, columns)[c] += factor * of.row(LogChannel::kYawRate, columns)[c];
+  }
+}
+
+/// Extrapolates the motion by h_s < 0 seconds: speeds along the tangent, the pose with the mean of
+/// its rates at both ends (Heun). Returns the derivative of the result with respect to h_s.
+State<double> extrapolate(const DelayedCommand& command, double h_s, LinearStepper& stepper,
+                          LinearMotion& motion) {
+  const LinearMotion start = motion;
+  State<double> by_time = stepper.step_along_tangent(command, h_s, motion);
+  const LinearMotion end = motion;
+  const PoseRates before(start.state);
+  const PoseRates after(end.state);
+  motion.state.x_m += 0.5 * h_s * (after.x - before.x);
+  motion.state.y_m += 0.5 * h_s * (after.y - before.y);
+  motion.state.psi_rad += 0.5 * h_s * (after.psi - before.psi);
+  add_by_column(start, -0.5 * h_s, stepper.columns(), motion);
+  add_by_column(end, 0.5 * h_s, stepper.columns(), motion);
+  const auto [u, v, heading] = std::tuple(by_time.u_mps, by_time.v_mps, by_time.psi_rad);
+  by_time.x_m = 0.5 * (before.x + after.x + h_s * after.x_by(u, v, heading));
+  by_time.y_m = 0.5 * (before.y + after.y + h_s * after.y_by(u, v, heading));
+  by_time.psi_rad = 0.5 * (before.psi + after.psi + h_s * by_time.r_radps);
+  return by_time;
 }
 
 }  // namespace
@@ -125,9 +182,8 @@ LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
   }
   DelayedCommand command = command_at(signals, std::max(row_s, then_s), path);
   if (!log.steering_command_rad) command.command.steering_rad = motion.state.steering_rad;
-  const State<double> rates = then_s < row_s
-                                  ? stepper.step_along_tangent(command, then_s - row_s, motion)
-                                  : stepper.rates(command, motion);
+  const State<double> rates = then_s < row_s ? extrapolate(command, then_s - row_s, stepper, motion)
+                                             : stepper.rates(command, motion);
   // A longer delay selects an earlier time, so the derivative of the motion with respect to the
   // delay is minus the rate.
   if (stepper.columns() == 0) return motion;

@@ -42,7 +42,7 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
 
 /// Returns the motion at an earlier time: delay.value >= 0 seconds before the last of `motions`,
 /// which are the motions at the rows from `begin` on. Integrates from the last row before that
-/// time. Before the row `begin`, extrapolates with the rates at this row.
+/// time. Before the row `begin`, extrapolates with the accelerations at this row.
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
                             const TermColumn& delay, double longest_step_s,

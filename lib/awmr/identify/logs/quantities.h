@@ -80,7 +80,10 @@ struct FreeQuantity {
     kExtraForce,   ///< a force that the model does not contain (extra_forces.h)
     kBias,         ///< constant offset of a channel
     kSensorDelay,  ///< latency of a channel, s
-    kSensorLag,    ///< time constant of a low-pass filter of a channel, s
+    /// Time L, s, over which a speed or yaw rate is averaged: the reading is the mean of the last L
+    /// seconds (before its latency), as if a program divided counts or an angle by L.
+    kAveraging,
+    kSensorLag,  ///< time constant of a low-pass filter of a channel, s
     /// Damping zeta of the low-pass filter of a channel, which this quantity makes a filter of
     /// second order (filtered_channel.h).
     kLagDamping,

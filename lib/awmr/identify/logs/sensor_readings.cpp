@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "awmr/core/containers.h"
 #include "awmr/core/index.h"
+#include "awmr/identify/logs/averaged_motion.h"
 #include "awmr/identify/logs/linear_replay.h"
 #include "awmr/trials/replay.h"
 
@@ -187,12 +189,31 @@ void SensorReadings::go_on(const LinearMotion& now) {
   const std::size_t row = window_.rows.begin + rows_;
   const double since_s = rows_ > 0 ? t_s[row] - t_s[row - 1] : 0.0;
   ++rows_;
-  if (terms_.any_delayed()) motions_.push_back(now);
+  if (terms_.any_earlier()) motions_.push_back(now);
   for (const LogChannel c : kChannels) {
     if (!filters_[at(c)]) continue;
     const double input = reading_of(c, now, t_s[row]);
     filters_[at(c)]->next(input, row_.data(), since_s, row_.size());
   }
+}
+
+LinearMotion SensorReadings::earlier(const TermColumn& before_s) {
+  return earlier_motion(*window_.signals, window_.rows.begin, motions_, back_, before_s,
+                        model_.longest_step_s, vehicle_.path);
+}
+
+LinearMotion SensorReadings::averaged(LogChannel c, LinearMotion end, double late_s) {
+  const TermColumn& averaging = *terms_.averaging[at(c)];
+  LinearMotion begin = earlier({late_s + averaging_time_s(averaging), averaging.column});
+  // The motion of the vehicle does not depend on the averaging time, so its column holds only the
+  // derivatives with respect to the time of `begin`, on which the latency has the same effect.
+  const auto& delay = terms_.delay[at(c)];
+  const std::size_t columns = row_.size();
+  for (std::size_t i = 0; columns > 0 && delay && i < kStateSize; ++i) {
+    double* const by = begin.by_column.data() + i * columns;
+    by[delay->column] += by[averaging.column];
+  }
+  return averaged_motion(begin, std::move(end), averaging, columns);
 }
 
 double SensorReadings::read(LogChannel c, const LinearMotion& now) {
@@ -202,10 +223,12 @@ double SensorReadings::read(LogChannel c, const LinearMotion& now) {
   }
   const double t_s = window_.rows.log->t_s[window_.rows.begin + rows_ - 1];
   const auto& delay = terms_.delay[at(c)];
-  if (!delay) return reading_of(c, now, t_s);
-  const LinearMotion then = earlier_motion(*window_.signals, window_.rows.begin, motions_, back_,
-                                           *delay, model_.longest_step_s, vehicle_.path);
-  return reading_of(c, then, t_s - delay->value);
+  const bool is_mean = terms_.averaging[at(c)].has_value();
+  if (!delay && !is_mean) return reading_of(c, now, t_s);
+  const double late_s = delay ? delay->value : 0.0;
+  LinearMotion then = delay ? earlier(*delay) : now;
+  if (is_mean) then = averaged(c, std::move(then), late_s);
+  return reading_of(c, then, t_s - late_s);
 }
 
 }  // namespace awmr

@@ -46,6 +46,11 @@ class SensorReadings {
   std::vector<double>& row() { return row_; }
 
  private:
+  /// Returns the motion `before_s.value` seconds before this row (earlier_motion()).
+  LinearMotion earlier(const TermColumn& before_s);
+  /// Returns the motion whose speed and yaw rate are the means of the averaging time of channel c.
+  /// `end`: the motion at the end of this time, `late_s` seconds before this row.
+  LinearMotion averaged(LogChannel c, LinearMotion end, double late_s);
   /// Returns the reading of channel c for the motion at the time t, without latency, filters,
   /// smoothing and bias. Also sets row_ to its derivatives. The functions below are its parts.
   double reading_of(LogChannel c, const LinearMotion& motion, double t_s);
@@ -64,7 +69,7 @@ class SensorReadings {
   /// Simulated filters, one per channel; empty for channels without a filter.
   std::array<std::optional<FilteredChannel>, kChannelCount> filters_;
   std::size_t rows_ = 0;               ///< number of rows up to now
-  std::vector<LinearMotion> motions_;  ///< motions at these rows; empty unless a sensor has latency
+  std::vector<LinearMotion> motions_;  ///< motions at these rows; empty unless any_earlier()
   std::vector<double> row_;
 };
 

@@ -68,6 +68,9 @@ void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const 
       sensors.delay[c] = {number, i};
       if (q.channel == LogChannel::kX) sensors.delay[at(LogChannel::kY)] = {number, i};
       break;
+    case Kind::kAveraging:
+      sensors.averaging[c] = {number, i};
+      break;
     case Kind::kSensorScale:
       sensors.scale[c] = {number, i};
       break;
@@ -103,8 +106,9 @@ void set_motor_dynamics(const LogModel& model, const FitWindow& window, CommandP
 
 }  // namespace
 
-bool SensorTerms::any_delayed() const {
-  return std::ranges::any_of(delay, [](const auto& one) { return one.has_value(); });
+bool SensorTerms::any_earlier() const {
+  const auto is_free = [](const auto& one) { return one.has_value(); };
+  return std::ranges::any_of(delay, is_free) || std::ranges::any_of(averaging, is_free);
 }
 
 bool SensorTerms::any_smoothed() const {

@@ -38,6 +38,7 @@ struct Smoothing {
 struct SensorTerms {
   std::array<std::optional<TermColumn>, kChannelCount> bias{};
   std::array<std::optional<TermColumn>, kChannelCount> delay{};
+  std::array<std::optional<TermColumn>, kChannelCount> averaging{};
   std::array<std::optional<SensorFilter>, kChannelCount> lag{};  ///< without their damping
   std::array<std::optional<TermColumn>, kChannelCount> lag_damping{};
   std::array<std::optional<Smoothing>, kChannelCount> smoothing{};
@@ -45,7 +46,8 @@ struct SensorTerms {
   std::vector<WheelSlip> slips;
   TermColumns mounting;  ///< kSwayOffset to kCompassCos2
 
-  bool any_delayed() const;
+  /// True if a reading depends on the motion before its row: latency or averaging.
+  bool any_earlier() const;
   bool any_smoothed() const;
 };
 

@@ -79,7 +79,8 @@ Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels,
   }
   const auto is_read_late = [](const FreeTerm& t) {
     return t.quantity.channel == LogChannel::kYawRate &&
-           (t.quantity.kind == Kind::kSensorDelay || t.quantity.kind == Kind::kSensorLag);
+           (t.quantity.kind == Kind::kSensorDelay || t.quantity.kind == Kind::kAveraging ||
+            t.quantity.kind == Kind::kSensorLag);
   };
   const bool has_yaw_rate = is_logged(logs, {LogChannel::kYawRate});
   if (channels.front() == LogChannel::kSpeed && channels.size() == 1 && has_yaw_rate &&

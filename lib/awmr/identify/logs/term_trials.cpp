@@ -8,6 +8,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/units.h"
+#include "awmr/identify/logs/further_terms.h"
 #include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
@@ -102,27 +103,76 @@ bool has_motor_lag(const LogModel& model) {
   return model.vehicle.motor_time_constant_s || has(model.quantities, Kind::kMotorLag);
 }
 
-std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled) {
-  LogProblem problem = settled.problem;
+namespace {
+
+/// A sensor's low-pass filter in a fit.
+struct FoundFilter {
+  LogChannel channel;
+  double lag_s;    ///< time constant T
+  double delay_s;  ///< delay of slow signals: 2 zeta T; T for a filter of first order
+};
+
+std::vector<FoundFilter> filters_of(const NoiseIteration& fit) {
+  const std::vector<FreeQuantity>& quantities = fit.problem.model.quantities;
+  std::vector<FoundFilter> filters;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if (quantities[i].kind != Kind::kSensorLag) continue;
+    const LogChannel channel = quantities[i].channel;
+    const double lag_s = fit.point.coordinates[i];
+    const auto damping = place_of(quantities, free_term(Kind::kLagDamping, channel).name());
+    const double delays = damping ? 2.0 * fit.point.coordinates[*damping] : 1.0;
+    filters.push_back({channel, lag_s, delays * lag_s});
+  }
+  return filters;
+}
+
+/// The fit `settled` with the terms `others` in place of these filters.
+NoiseIteration replaced(const NoiseIteration& settled, const std::vector<FoundFilter>& filters,
+                        const std::vector<FreeTerm>& others) {
+  LogProblem problem = with_white_noise(settled.problem);
   SearchPoint point = settled.point;
-  if (has_motor_lag(problem.model)) return std::nullopt;
-  std::vector<double> lags_s;
+  const auto is_replaced = [&](const FreeQuantity& q) {
+    return (q.kind == Kind::kSensorLag || q.kind == Kind::kLagDamping) &&
+           std::ranges::any_of(filters, [&](const auto& one) { return one.channel == q.channel; });
+  };
   for (std::size_t i = problem.model.quantities.size(); i-- > 0;) {
-    const Kind kind = problem.model.quantities[i].kind;
-    if (kind != Kind::kSensorLag && kind != Kind::kLagDamping) continue;
-    if (kind == Kind::kSensorLag) lags_s.push_back(point.coordinates[i]);
+    if (!is_replaced(problem.model.quantities[i])) continue;
     const auto at_i = static_cast<std::ptrdiff_t>(i);
     problem.model.quantities.erase(problem.model.quantities.begin() + at_i);
     problem.initial.erase(problem.initial.begin() + at_i);
     problem.bounds.erase(problem.bounds.begin() + at_i);
     point.coordinates.erase(point.coordinates.begin() + at_i);
   }
-  if (lags_s.size() < 2) return std::nullopt;
-  Extended from = extended(with_white_noise(std::move(problem)), std::move(point),
-                           {free_term(Kind::kMotorLag)}, {std::ranges::min(lags_s)});
-  NoiseIteration fit = settle_noise(std::move(from.problem), std::move(from.point));
+  std::vector<FreeQuantity> quantities;
+  std::vector<double> begin;
+  for (const FreeTerm& term : others) {
+    quantities.push_back(term.quantity);
+    begin.push_back(term.begin);
+  }
+  Extended from = extended(std::move(problem), std::move(point), quantities, begin);
+  return settle_noise(std::move(from.problem), std::move(from.point));
+}
+
+}  // namespace
+
+std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled) {
+  const std::vector<FoundFilter> filters = filters_of(settled);
+  if (has_motor_lag(settled.problem.model) || filters.size() < 2) return std::nullopt;
+  const double lag_s = std::ranges::min(filters, {}, &FoundFilter::lag_s).lag_s;
+  NoiseIteration fit = replaced(settled, filters, {{free_term(Kind::kMotorLag), lag_s}});
   if (!(akaike_of(fit) < akaike_of(settled))) return std::nullopt;
   return fit;
+}
+
+std::optional<NoiseIteration> with_averaging_for_filters(const NoiseIteration& settled) {
+  std::vector<FoundFilter> filters = filters_of(settled);
+  std::erase_if(filters, [](const FoundFilter& one) { return !is_often_counted(one.channel); });
+  if (filters.empty()) return std::nullopt;
+  std::vector<FreeTerm> averaging;
+  for (const FoundFilter& one : filters) {
+    averaging.push_back({free_term(Kind::kAveraging, one.channel), 2.0 * one.delay_s});
+  }
+  return replaced(settled, filters, averaging);
 }
 
 std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& settled) {

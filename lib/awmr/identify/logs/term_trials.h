@@ -63,6 +63,10 @@ bool has_motor_lag(const LogModel& model);
 /// already has a motor lag.
 std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled);
 
+/// Replaces the low-pass filters of speed and yaw rate by means over twice the delay of the filters
+/// (FreeQuantity::Kind::kAveraging). Empty if there is no such filter. The AIC may be higher.
+std::optional<NoiseIteration> with_averaging_for_filters(const NoiseIteration& settled);
+
 /// Adds a motor lag to a fit with a positive delay of the commands. Empty if there is no such
 /// delay, if the model already has a motor lag, or if AIC does not decrease by more than 10.
 std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& settled);
