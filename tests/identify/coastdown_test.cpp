@@ -275,6 +275,25 @@ TEST(CoastDown, CorrelatedNoiseWidensTheInterval) {
                           [](const Finding& f) { return f.code == "coloured-residuals"; }));
 }
 
+/// Surge runs with errors of the force differ from the other error models at low speeds.
+TEST(CoastDown, DoesNotAskForACurveThatWasGiven) {
+  const Truth& t = kTruths[0];
+  for (std::uint64_t seed = 1; seed < 30; ++seed) {
+    TrialData data = surge_only(t, 0.2, seed);
+    Random random(4, seed);
+    data.curves = {simulate_coastdown(plant(t), 1.6, 2.0, 100.0, 0.002, 0.0, random)};
+    const auto result = identify(vehicle(), data, {}, {});
+    ASSERT_TRUE(result);
+    for (const Finding& f : result->model.record.findings) {
+      if (f.code != "noise-model") continue;
+      EXPECT_THAT(f.message, ::testing::Not(::testing::HasSubstr("coast-down curve")));
+      EXPECT_THAT(f.message, ::testing::HasSubstr("surge runs, which"));
+      return;
+    }
+  }
+  FAIL() << "no data with the finding noise-model";
+}
+
 /// Errors of a simulated speed sensor.
 struct SpeedSensor {
   double lag_s = 0.0;       ///< time constant of a filter; 0: none

@@ -93,6 +93,26 @@ TEST(ModelFile, ExplainsFaultsOfItsVehicleAsInVehicleJson) {
               ElementsAre(AllOf(StartsWith("/vehicle/length_m: "), HasSubstr("looks like mm"))));
 }
 
+TEST(ModelFile, NamesTheSourceOfAMissingEstimate) {
+  EXPECT_THAT(faults_after({"/surge/alpha", {}, true}),
+              ElementsAre(AllOf(StartsWith("/surge/alpha: "), HasSubstr("surge trial"))));
+  EXPECT_THAT(faults_after({"/steering", {}, true}),
+              ElementsAre(AllOf(StartsWith("/steering: "), HasSubstr("steering_cmd_deg"))));
+  // A vehicle without steering has no time constant. The value in the message is accepted.
+  Model model = some_model();
+  model.vehicle.drive = Drive::kDifferential;
+  model[ParameterId::kSteeringTimeConstant] = {{}, {}, {}, Source::kGiven, "no steering"};
+  const std::string text = model_text(model);
+  const Edit gone{"/steering/time_constant_s", {}, true};
+  const std::vector<std::string> faults = faults_of(read_model, edited(text, gone));
+  ASSERT_THAT(faults, SizeIs(1));
+  const std::size_t first = faults[0].find('{'), last = faults[0].find('}');
+  ASSERT_NE(last, std::string::npos) << faults[0];
+  const Json value = Json::parse(faults[0].substr(first, last + 1 - first));
+  EXPECT_THAT(faults_of(read_model, edited(text, {"/steering/time_constant_s", value})),
+              ::testing::IsEmpty());
+}
+
 TEST(ModelFile, OfAnotherKindIsOneFault) {
   EXPECT_THAT(faults_after({"/schema", "awmr.gains/1"}), ElementsAre(StartsWith("/schema: ")));
 }

@@ -217,9 +217,11 @@ TEST(Validity, AdvisesTheLimitThatTheScenarioLacks) {
   EXPECT_THAT(extrapolated({}), AllOf(record, HasSubstr(measured)));
   EXPECT_THAT(extrapolated({.rate_max_degps = 30.0}),
               AllOf(record, HasSubstr("from 30 to 15 deg/s"), HasSubstr(option)));
-  for (const auto& [limit_degps, text] : {std::pair(15.0, "below 15 deg/s"), {12.0, "below 12"}}) {
+  // At 40/15 of the measured rate, the limit is lowered by this factor.
+  for (const auto& [limit_degps, lower] : {std::pair(15.0, "5.6"), {12.0, "4.5"}}) {
     EXPECT_THAT(extrapolated({.rate_max_degps = limit_degps}),
-                AllOf(record, HasSubstr(text), HasSubstr(option), Not(HasSubstr(measured))));
+                AllOf(record, HasSubstr(std::string("to about ") + lower + " deg/s"),
+                      HasSubstr(option_text(std::string("heading_rate_limit ") + lower))));
   }
   EXPECT_THAT(extrapolated({.are_headings = false}),
               AllOf(record, HasSubstr("tau_turn"), Not(HasSubstr("heading"))));

@@ -72,19 +72,20 @@ std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>
   return text + partial_means(scenario);
 }
 
-/// Text such as "decisions: 3 decided, 2 undecided; survive a change of plant in 3 of 5, ...".
+/// Text such as "first place under every change: one mode in 3 scenarios, several modes in 0,
+/// undecided in 2; survives a change of plant in 3 of 5, ...".
 std::string decisions_of(const std::vector<EvaluatedScenario>& scenarios) {
   DecisionTally tally = tally_decisions(scenarios);
-  std::string text;
-  for (const auto& [name, kind] : kDecisionKindNames) {
-    text +=
-        fmt::format("{}{} {}", text.empty() ? "decisions: " : ", ", tally.scenarios[kind], name);
-  }
+  std::string text = fmt::format(
+      "first place under every change: one mode in {} scenarios, several modes in {}, undecided in "
+      "{}",
+      tally.scenarios[DecisionKind::kDecided], tally.scenarios[DecisionKind::kLevel],
+      tally.scenarios[DecisionKind::kUndecided]);
   std::string survived;
   for (const auto& [name, kind] : kChangeKindNames) {
     const DecisionTally::Share& share = tally.survived[kind];
     if (share.of == 0) continue;
-    survived += fmt::format("{}{} in {} of {}", survived.empty() ? "; survive a change of " : ", ",
+    survived += fmt::format("{}{} in {} of {}", survived.empty() ? "; survives a change of " : ", ",
                             name, share.count, share.of);
   }
   return text + survived + '\n';

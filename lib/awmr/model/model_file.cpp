@@ -336,6 +336,7 @@ Result<Model> parse_model(std::string_view text, const std::string& file, bool a
   model.file = file;
   if (!faults.empty() && json.is_object() && json.contains("vehicle")) {
     explain_vehicle_faults(json.at("vehicle"), file + ":/vehicle", faults);
+    explain_missing_estimates(file, model.vehicle, faults);
   }
   if (faults.empty()) faults = self_contradictions(model);
   if (!faults.empty()) return input_errors(std::move(faults));

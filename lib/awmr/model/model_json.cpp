@@ -324,4 +324,26 @@ TrialPoint trial_from_json(JsonObject& json) {
   return trial;
 }
 
+void explain_missing_estimates(const std::string& file, const Vehicle& vehicle,
+                               std::vector<Fault>& faults) {
+  const auto& table = parameter_table();
+  for (Fault& fault : faults) {
+    if (fault.code != ErrorCode::kMissing) continue;
+    const auto missing = std::ranges::find_if(table, [&](const ParameterInfo& one) {
+      const std::string place = file + ":" + std::string(one.pointer);
+      return place == fault.place || place.starts_with(fault.place + "/");
+    });
+    if (missing == table.end()) continue;
+    const bool is_null =
+        missing->id == ParameterId::kSteeringTimeConstant && !vehicle.has_steering();
+    fault.message = fmt::format(
+        "this key with {} ({}) is missing. {}", missing->symbol, missing->meaning,
+        is_null
+            ? "The vehicle has no steering, so give {\"value\": null, \"std_error\": null, "
+              "\"ci95\": null, \"unit\": \"s\", \"source\": \"given\", \"method\": \"no "
+              "steering\"} for time_constant_s"
+            : fmt::format("`awmr identify` writes it, from {}", trial_of(vehicle, missing->id)));
+  }
+}
+
 }  // namespace awmr

@@ -10,6 +10,11 @@ namespace awmr {
 Json number_or_null(const std::optional<double>& value);
 Json interval_or_null(const std::optional<Interval>& interval);
 
+/// Adds to each fault about a missing estimate (in `file`, a model.json) which quantity it is, and
+/// where its value comes from.
+void explain_missing_estimates(const std::string& file, const Vehicle& vehicle,
+                               std::vector<Fault>& faults);
+
 Json report_to_json(const EstimatorReport& report);
 EstimatorReport report_from_json(JsonObject& json);
 

@@ -87,6 +87,17 @@ std::vector<Scenario> equipped(const Vehicle& vehicle, std::vector<Scenario> sce
   return scenarios;
 }
 
+namespace {
+
+/// Text such as "heading: noise 0.5 deg, latency 0.01 s".
+std::string sensor_text(const char* name, double noise, const char* unit, double latency_s) {
+  std::string text = name;
+  text += noise > 0.0 ? fmt::format(": noise {:g} {}", noise, unit) : ": no noise";
+  return text + (latency_s > 0.0 ? fmt::format(", latency {:g} s", latency_s) : ", no latency");
+}
+
+}  // namespace
+
 std::string equipment_text(const Vehicle& vehicle, std::span<const Scenario> as_given) {
   bool adds_sensors = false;
   bool adds_motors = false;
@@ -99,10 +110,10 @@ std::string equipment_text(const Vehicle& vehicle, std::span<const Scenario> as_
   std::string text;
   if (adds_sensors) {
     text += fmt::format(
-        "sensors of vehicle.json (noise, latency), in scenarios without the key sensors:\n"
-        "  heading {:g} deg, {:g} s; yaw rate {:g} deg/s, {:g} s; speed {:g} m/s, {:g} s\n",
-        c.heading_noise_deg, c.heading_latency_s, c.yaw_rate_noise_degps, c.yaw_rate_latency_s,
-        c.speed_noise_mps, c.speed_latency_s);
+        "sensors of vehicle.json, in scenarios without the key sensors:\n  {}; {}; {}\n",
+        sensor_text("heading", c.heading_noise_deg, "deg", c.heading_latency_s),
+        sensor_text("yaw rate", c.yaw_rate_noise_degps, "deg/s", c.yaw_rate_latency_s),
+        sensor_text("speed", c.speed_noise_mps, "m/s", c.speed_latency_s));
   }
   if (adds_motors) {
     text += fmt::format(

@@ -241,10 +241,12 @@ std::string remedy_for_turns(const TurnCommands& commands, double measured_degps
         "(shaping in the scenario, or {})",
         record, *commands.rate_max_degps, measured_degps, option);
   }
+  const std::string lower =
+      fmt::format("{:.2g}", *commands.rate_max_degps * measured_degps / fastest_degps);
   return fmt::format(
-      "The rate of heading commands is limited to {:.3g} deg/s, but the vehicle "
-      "overshoots or slides. {}, or give a limit below {:.3g} deg/s ({})",
-      *commands.rate_max_degps, record, *commands.rate_max_degps, option);
+      "The rate of heading commands is limited to {:.3g} deg/s, but the vehicle overshoots or "
+      "slides. {}, or lower the limit in proportion, to about {} deg/s ({})",
+      *commands.rate_max_degps, record, lower, option_text("heading_rate_limit " + lower));
 }
 
 }  // namespace

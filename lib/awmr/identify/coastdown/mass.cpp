@@ -244,9 +244,10 @@ void add_alternatives(const std::vector<NoiseAlternative>& laws,
 }
 
 /// Adds the finding `noise-model` if m' depends on the error model: its median over all surge laws
-/// differs from the reported m' by more than the standard error.
+/// differs from the reported m' by more than the standard error. `has_curves`: the coast-downs
+/// include curves.
 void check_noise(const std::vector<NoiseAlternative>& laws, const std::string& file,
-                 MassResult& result) {
+                 bool has_curves, MassResult& result) {
   if (result.posterior.alternatives.size() < 2) return;
   const Eigen::Index last = result.posterior.alternatives.front().centre.size() - 1;
   if (!result.posterior.is_proper(last)) return;
@@ -260,9 +261,12 @@ void check_noise(const std::vector<NoiseAlternative>& laws, const std::string& f
            "which is unknown. It is {:.3g} with errors on {}; the median over all such error "
            "models is {:.3g} (weights in /estimates of model.json). Its interval, and the "
            "random vehicles of tune and compare, cover all error models. Select one with {}, "
-           "or record a coast-down curve, whose mass_norm depends less on the surge resistance",
+           "or record {}",
            std::exp(result.estimate->log_mass_norm), name_of(laws.front().noise), std::exp(median),
-           option_text("noise"))});
+           option_text("noise"),
+           has_curves ? "further surge runs, which make the surge resistance more accurate"
+                      : "a coast-down curve, whose mass_norm depends less on the surge "
+                        "resistance")});
 }
 
 /// MassResult::by_grip, from the coast-down with the highest initial speed.
@@ -373,7 +377,8 @@ MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<S
   if (joint && model && !withdraws) add_joint(surge->problem, law, curves, model->start, result);
   const std::string stop_file = stops ? stops->file : std::string();
   if (!result.joint) {
-    check_noise(surge->alternatives, curves.empty() ? stop_file : curves.front().file, result);
+    check_noise(surge->alternatives, curves.empty() ? stop_file : curves.front().file,
+                !curves.empty(), result);
   }
   if (withdraws) withdraw_mass(result);
   check(law, stops, curves, vehicle, result);
