@@ -47,6 +47,7 @@ struct TuneCommand {
   std::optional<fs::path> baseline = {};  ///< replaces `baseline` of tune.json
   std::optional<YawMode> mode = {};       ///< replaces `mode` of tune.json
   bool one_set = false;                   ///< true: one set of gains for all modes
+  bool allow_unsettled = false;           ///< true: also gains that never settle in some mode
   std::optional<int> draws = {};          ///< replaces `draws` of tune.json
   HeadingRateChoice heading_rate_limit = {};
   InputNames names = {};

@@ -33,6 +33,7 @@ constexpr ProjectKey kKeys[] = {
     {"identify", "surge", "trials/surge"},
     {"identify", "turning", "trials/turning"},
     {"identify", "until", "identify/until_s"},
+    {"tune", "allow-unsettled", "allow_unsettled"},
     {"tune", "baseline", "baseline"},
     {"tune", "draws", "draws"},
     {"tune", "mode", "mode"},

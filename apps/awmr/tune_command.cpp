@@ -72,6 +72,8 @@ std::vector<Finding> overridden_keys(const TuneConfig& config, const TuneCommand
                         fmt::format("{} replaces {} of this file", option_text(option), key)});
   };
   note_flag("one_set", command.one_set && !options.one_set, "one_set");
+  note_flag("allow_unsettled", command.allow_unsettled && !options.allows_unsettled,
+            "allow_unsettled");
   note_flag("nominal", command.nominal && !options.nominal, "nominal");
   note_flag("no_observer", command.observer == false && options.adds_observer, "no_observer");
   if (command.draws)
@@ -116,6 +118,7 @@ Result<ChosenConfig> config_of(const TuneCommand& command, Model& model) {
   AWMR_RETURN_IF_ERROR(limit_heading_rate(command.heading_rate_limit, model, options.scenarios));
   if (command.nominal) options.nominal = true;
   if (command.one_set) options.one_set = true;
+  if (command.allow_unsettled) options.allows_unsettled = true;
   if (command.draws) options.draws = *command.draws;
   if (command.baseline) {
     AWMR_ASSIGN_OR_RETURN(options.baseline, baseline_named(*command.baseline));
@@ -142,6 +145,7 @@ Result<Provenance> provenance_of(const TuneCommand& command, const std::vector<f
   if (command.baseline) options.emplace_back("baseline", command.baseline->string());
   if (command.mode) options.emplace_back("mode", std::string(name_of(*command.mode)));
   if (command.one_set) options.emplace_back("one-set", "true");
+  if (command.allow_unsettled) options.emplace_back("allow-unsettled", "true");
   if (command.draws) options.emplace_back("draws", std::to_string(*command.draws));
   describe_rate(command.heading_rate_limit, options);
   return Provenance{"tune", std::move(options), std::move(inputs)};
@@ -168,6 +172,9 @@ CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
       sub.add_flag("--one-set", command.one_set,
                    "Tune one set of gains for all modes (default: a set for each mode if gains for "
                    "one mode alone settle much faster)");
+  sub.add_flag("--allow-unsettled", command.allow_unsettled,
+               "Write gains.json even if in some mode the vehicle never settles with the gains "
+               "(default: exit code 1, with the changes that let runs settle)");
   add_choice(sub, "--mode", command.mode, kYawModeNames,
              "Tune for this mode only (default: for all modes)")
       ->excludes(one_set);
@@ -219,8 +226,8 @@ void add_tune(CLI::App& app, Session& session) {
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--config", command->config,
            "tune.json, with any of the keys mode, one_set, form, margin, limits, baseline, "
-           "weights, goals, open, observer, no_observer, global_evaluations, local_evaluations, "
-           "seed, scenarios");
+           "weights, goals, open, observer, no_observer, allow_unsettled, global_evaluations, "
+           "local_evaluations, seed, scenarios");
   CLI::Option* nominal = add_search(*sub, *command);
   add_draws(*sub, *command, nominal);
   add_allocation(*sub, command->allocation);

@@ -165,8 +165,10 @@ std::string table_of(const Tuning& tuning) {
                      tuning.baseline.gains.common(), tuning.baseline_objective);
   text += gains_line("tuned", tuning.gains, tuning.objective);
   if (const ObserverGains<double>& observer = tuning.gains.observer; observer.is_on()) {
-    text += fmt::format("  observer       {:.4g} rad/s, at most {:.4g} m and {:.4g} of F_max\n",
-                        observer.bandwidth_radps, observer.yaw_max_m, observer.surge_max);
+    text += fmt::format(
+        "  observer       bandwidth {:.4g} rad/s; compensates up to {:.4g} m (yaw moment) and "
+        "{:.4g} (surge force), both divided by F_max\n",
+        observer.bandwidth_radps, observer.yaw_max_m, observer.surge_max);
   }
   return text;
 }

@@ -91,7 +91,7 @@ TEST(Explain, PrintsSeverityMeaningAndRemedyOfACode) {
   const ProcessResult none = awmr("explain few-sample");
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_THAT(none.err, HasSubstr("did you mean 'few-samples'?"));
-  EXPECT_THAT(awmr("explain unsettle").err, HasSubstr("did you mean 'unsettled'?"));
+  EXPECT_THAT(awmr("explain unsettle").err, HasSubstr("did you mean 'unsettled'"));
 }
 
 TEST_F(Terminal, ShowsHowFarLongWorkIs) {

@@ -901,7 +901,7 @@ TEST(Constraints, RequireDampingWithLatency) {
   const std::vector<ConstraintReport> late = constraints_of(kPaperGains, context);
   ASSERT_EQ(late.size(), without + 2);
   EXPECT_LT(named(late, "late damping").value, 0.7);
-  // "delay margin" is the smallest damping ratio over all modes and rates with twice the latency
+  // "delayed damping" is the smallest damping ratio over all modes and rates with twice the latency
   // plus one sample, which is 5 samples.
   double worst = 1.0;
   for (const double rate_degps : {1.0, 5.0, 20.0, 60.0}) {
@@ -919,8 +919,8 @@ TEST(Constraints, RequireDampingWithLatency) {
                          .command_delay_s = 0.05}));
     }
   }
-  EXPECT_NEAR(named(late, "delay margin").value, worst, 1e-9);
-  EXPECT_EQ(named(late, "delay margin").limit, 0.05);
+  EXPECT_NEAR(named(late, "delayed damping").value, worst, 1e-9);
+  EXPECT_EQ(named(late, "delayed damping").limit, 0.05);
   // The constraints also hold for drawn plants: with less resistance than the law compensates,
   // damping is lower.
   Plant<double> slippery = context.plant;
@@ -928,7 +928,7 @@ TEST(Constraints, RequireDampingWithLatency) {
   context.draws = {{slippery, context.wheel_force}};
   const std::vector<ConstraintReport> drawn = constraints_of(kPaperGains, context);
   EXPECT_LT(named(drawn, "late damping").value, named(late, "late damping").value);
-  EXPECT_LT(named(drawn, "delay margin").value, named(late, "delay margin").value);
+  EXPECT_LT(named(drawn, "delayed damping").value, named(late, "delayed damping").value);
 }
 
 }  // namespace

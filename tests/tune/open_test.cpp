@@ -81,6 +81,54 @@ TEST(Open, RunsClipAtTheForcesOfTheirVehicle) {
   }
 }
 
+TEST(Open, IsRemovedFromTheVehiclesThatTookIt) {
+  const Model model = paper_model();
+  const Plant<double> own = model.plant().value();
+  const UnmodelledVariation masses{.mass_factors = paper_grid().mass_factors, .wheel_forces = {}};
+  const UnmodelledVariation forces{.mass_factors = {}, .wheel_forces = paper_grid().wheel_forces};
+  const auto with = vehicles_of(model, 7, 1, paper_grid(), Spread::kRandom).value();
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    const DrawnVehicle of_own_mass = without(masses, with)[i];
+    const DrawnVehicle of_own_force = without(forces, with)[i];
+    EXPECT_NEAR(of_own_mass.plant.mass_norm, own.mass_norm, 1e-15) << i;
+    EXPECT_NEAR(of_own_mass.plant.inertia_norm, own.inertia_norm, 1e-15) << i;
+    EXPECT_EQ(of_own_mass.wheel_force.hi, with[i].wheel_force.hi) << i;
+    EXPECT_EQ(of_own_force.plant.mass_norm, with[i].plant.mass_norm) << i;
+    EXPECT_EQ(of_own_force.wheel_force.hi, model.vehicle.wheel_force.hi) << i;
+  }
+}
+
+/// Options of a search in which the drawn vehicles are too weak to settle in the scenario.
+TuneOptions options_with_weak_vehicles() {
+  TuneOptions options;
+  options.mode = YawMode::kDifferential;
+  options.global_evaluations = 10;
+  options.local_evaluations = 0;
+  options.draws = 2;
+  options.evaluation_draws = 2;
+  options.open.wheel_forces = {{-0.002, 0.002}};
+  return options;
+}
+
+TEST(Open, IsTheCauseIfRunsSettleWithoutIt) {
+  const Model model = paper_model();
+  TuneOptions options = options_with_weak_vehicles();
+  const Result<Tuning> refused = tune(model, options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::kRefused);
+  EXPECT_THAT(to_text(refused.error()), HasSubstr("Without `open/wheel_forces`"));
+  options.allows_unsettled = true;
+  const Result<Tuning> tuning = tune(model, options);
+  ASSERT_TRUE(tuning) << to_text(tuning.error());
+  ASSERT_FALSE(tuning->unsettled.empty());
+  for (const UnsettledRuns& one : tuning->unsettled) {
+    ASSERT_TRUE(one.variation);
+    EXPECT_EQ(one.variation->key, "open/wheel_forces");
+    EXPECT_EQ(one.variation->share_without, 1.0);
+    EXPECT_FALSE(one.error || one.noise);
+  }
+}
+
 TuneOptions short_search() {
   TuneOptions options;
   options.global_evaluations = 60;

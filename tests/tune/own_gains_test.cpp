@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/simulate.h"
+#include "awmr/tune/tune_findings.h"
 #include "tune/vehicles.h"
 
 namespace awmr::testing {
@@ -58,6 +61,53 @@ TEST(OwnGains, AreComparedWithTheBaselineOfEachMode) {
                   objective_of(one.scores[i], one.baseline_scores[i], options.weights), 1e-12);
     }
   }
+}
+
+std::size_t count(const std::vector<Finding>& findings, std::string_view code) {
+  return static_cast<std::size_t>(std::ranges::count(findings, code, &Finding::code));
+}
+
+/// Overshoot, which no gains have, outweighs the settling time, so that the objective of gains that
+/// settle much faster is hardly lower.
+TEST(OwnGains, AreUsedIfTheySettleMuchFasterWithAnObjectiveThatIsHardlyLower) {
+  const Model model = truck_with_a_slow_servo();
+  TuneOptions options;
+  options.nominal = true;
+  options.weights.overshoot = 30.0;
+  const Result<Tuning> tuning = tune(model, options);
+  ASSERT_TRUE(tuning) << to_text(tuning.error());
+  ASSERT_EQ(tuning->own.size(), 2U);
+  EXPECT_EQ(tuning->own.front().mode, YawMode::kDifferential);
+  EXPECT_GT(tuning->own.front().gains.heading.lambda,
+            1.2 * tuning->own.back().gains.heading.lambda);
+}
+
+TEST(OwnGains, AreNeitherSearchedNorRecommendedOutsideOfTheBounds) {
+  const Model model = truck_with_a_slow_servo();
+  TuneOptions options;
+  options.nominal = true;
+  options.scenarios = default_tuning_scenarios(model, options).value();
+  ASSERT_EQ(tune(model, options)->own.size(), 2U);
+  options.bounds.lambda = Interval{0.3, 0.3};
+  const Result<Tuning> tuning = tune(model, options);
+  ASSERT_TRUE(tuning) << to_text(tuning.error());
+  EXPECT_TRUE(tuning->own.empty());
+  EXPECT_EQ(count(tune_findings(model, options, *tuning), "faster-in-one-mode"), 0U);
+}
+
+TEST(OwnGains, OfAModeDoNotHideThatAnotherModeCouldBeFaster) {
+  const Model model = truck_with_a_slow_servo();
+  TuneOptions options;
+  options.nominal = true;
+  options.scenarios = default_tuning_scenarios(model, options).value();
+  Tuning tuning = tune(model, options).value();
+  ASSERT_EQ(tuning.own.size(), 2U);
+  EXPECT_EQ(count(tune_findings(model, options, tuning), "faster-in-one-mode"), 0U);
+  tuning.own.back().alone.push_back(
+      {.mode = YawMode::kSteering, .settling_time_s = 3.0, .tuned_settling_time_s = 5.0});
+  const std::vector<Finding> findings = tune_findings(model, options, tuning);
+  EXPECT_EQ(count(findings, "gains-by-mode"), 1U);
+  EXPECT_EQ(count(findings, "faster-in-one-mode"), 1U);
 }
 
 TEST(OwnGains, OfEachModeSettleASlowServosOtherModesFaster) {

@@ -489,6 +489,9 @@ TEST(Conditions, OfTheVehicleEquipAScenarioWithoutItsOwn) {
   const Scenario with = equipped(vehicle, plain);
   EXPECT_DOUBLE_EQ(with.sensors->heading.noise, radians(7.0));
   EXPECT_EQ(with.sensors->heading.correlation_s, 0.4);
+  EXPECT_THAT(equipment_text(vehicle, {&plain, 1}),
+              ::testing::HasSubstr("heading: noise 7 deg, no latency; yaw rate: no noise, no "
+                                   "latency; speed: no noise, latency 0.05 s"));
   EXPECT_EQ(with.sensors->speed.latency_s, 0.05);
   // Where vehicle.json gives nothing, the sensors are exact, unlike those of
   // conditions_of(vehicle).
@@ -659,13 +662,15 @@ TEST(Search, RefusesGainsWithWhichNoRunSettles) {
   EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
   EXPECT_EQ(tuning.error().faults.front().place, "tune.json:/scenarios");
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("no run settles"));
-  // The advice contains a number. With this number, the runs settle. The vehicle has no friction at
-  // rest.
+  // The advice contains a number. With this number, the runs of a mode settle. The vehicle has no
+  // friction at rest.
   const std::string message = tuning.error().faults.front().message;
   const std::string key = "scenarios of ";
   const std::size_t place = message.find(key);
   ASSERT_NE(place, std::string::npos) << message;
   options.scenarios[0].duration_s = std::stod(message.substr(place + key.size()));
+  options.mode = YawMode::kDifferential;
+  options.one_set = false;
   EXPECT_TRUE(tune(paper_model(), options)) << message;
   EXPECT_THAT(message, ::testing::Not(::testing::HasSubstr("steering_rate")));
 }
@@ -812,6 +817,25 @@ TEST(Settling, ProposesChangesThatHelpAndNoObserverIfOneIsOn) {
   EXPECT_EQ(std::ranges::find(others, "/observer", &SettlingChange::pointer), others.end());
 }
 
+/// The user's bounds permit only slow gains, although the constraints permit faster ones.
+TEST(Settling, ProposesWiderBoundsOfTheGains) {
+  const ObjectiveSetting setting = paper_runs();
+  const ConstraintContext context{.plant = paper_plant(), .mode = YawMode::kDifferential};
+  const Gains<double> fast = starting_poles(context)[0];
+  Gains<double> slow = fast;
+  slow.heading.lambda = 0.1;
+  ASSERT_EQ(settled_share(setting, slow), 0.0);
+  GainBounds bounds;
+  bounds.lambda = {0.5 * slow.heading.lambda, slow.heading.lambda};
+  const auto changes = SettlingSearch(context, bounds).changes(setting, slow, 1.0);
+  ASSERT_EQ(changes.size(), 1U);
+  EXPECT_EQ(changes.front().pointer, "/bounds");
+  const std::string key = "`bounds/lambda` that contain ";
+  ASSERT_TRUE(changes.front().text.starts_with(key)) << changes.front().text;
+  EXPECT_NEAR(std::stod(changes.front().text.substr(key.size())), fast.heading.lambda,
+              0.005 * fast.heading.lambda);  // three digits
+}
+
 /// The paper's vehicle with Coulomb friction in yaw, m.
 Model with_friction(double coulomb_m) {
   Model model = paper_model();
@@ -831,6 +855,23 @@ TuneOptions one_step_options() {
   options.mode = YawMode::kSteering;
   options.scenarios.front().guidance = HeadingSteps{{{0.0, radians(30.0)}}};
   return options;
+}
+
+/// The objective is a ratio to runs that do not settle.
+TEST(Tune, ReportsABaselineThatNeverSettles) {
+  TuneOptions options = one_step_options();
+  options.mode = YawMode::kDifferential;
+  const auto is_reported = [&](const Gains<double>& baseline) {
+    options.baseline = Baseline{ModeGains(baseline), "before.json"};
+    const Tuning tuning = tune(paper_model(), options).value();
+    const std::vector<Finding> findings = tune_findings(paper_model(), options, tuning);
+    return std::ranges::any_of(findings,
+                               [](const Finding& f) { return f.code == "baseline-unsettled"; });
+  };
+  Gains<double> slow = kPaperGains;
+  EXPECT_FALSE(is_reported(slow));
+  slow.heading.lambda = 0.05;
+  EXPECT_TRUE(is_reported(slow));
 }
 
 /// With dry friction, gains that meet the limit of the steering rate leave a heading error. Only an
@@ -1063,12 +1104,17 @@ TEST(Candidate, ThatMeetsTheConstraintsIsNearerThanOneThatDoesNot) {
 }
 
 TEST(TradeOff, KeepsTheParetoFront) {
-  const auto front = front_of({{2.0, 1.0}, {1.0, 3.0}, {1.0, 2.0}, {3.0, 1.0}, {1.5, 2.5}});
+  std::vector<FrontPoint> points;
+  for (const TradeOffPoint& point :
+       {TradeOffPoint{2.0, 1.0}, {1.0, 3.0}, {1.0, 2.0}, {3.0, 1.0}, {1.5, 2.5}}) {
+    points.push_back({.point = point, .gains = {}});
+  }
+  const auto front = front_of(points);
   ASSERT_EQ(front.size(), 2U);
-  EXPECT_EQ(front[0].settling_time_s, 1.0);
-  EXPECT_EQ(front[0].control_variation, 2.0);
-  EXPECT_EQ(front[1].settling_time_s, 2.0);
-  EXPECT_EQ(front[1].control_variation, 1.0);
+  EXPECT_EQ(front[0].point.settling_time_s, 1.0);
+  EXPECT_EQ(front[0].point.control_variation, 2.0);
+  EXPECT_EQ(front[1].point.settling_time_s, 2.0);
+  EXPECT_EQ(front[1].point.control_variation, 1.0);
   EXPECT_TRUE(front_of({}).empty());
 }
 
@@ -1088,6 +1134,18 @@ TEST(TradeOff, HasTheGainsThatTheTuningNames) {
   }
   EXPECT_NEAR(named["tuned"].settling_time_s, settling_s, 1e-12);
   EXPECT_NEAR(named["tuned"].control_variation, variation, 1e-12);
+  // The gains of each point of the front reach this point.
+  const Model model = paper_model();
+  for (const FrontPoint& one : tuning.trade_off.front) {
+    double front_s = 0.0;
+    for (const YawMode mode : kYawModes) {
+      const awmr::Run run = simulate(model, one.gains, options.scenarios[0], mode).value();
+      const Metrics metrics =
+          metrics_of(run, options.scenarios[0], controller_for(model, one.gains).value());
+      front_s += metrics.settling_time_s.value_or(10.0) / 3.0;
+    }
+    EXPECT_NEAR(one.point.settling_time_s, front_s, 0.03);  // of a step in each mode
+  }
 }
 
 }  // namespace

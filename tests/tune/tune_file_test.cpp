@@ -45,6 +45,8 @@ TEST_F(TuneFile, ReadsAnObserver) {
   EXPECT_FALSE(read("{}")->options.observer);
   EXPECT_TRUE(read("{}")->options.adds_observer);
   EXPECT_FALSE(read(R"({"no_observer": true})")->options.adds_observer);
+  EXPECT_FALSE(read("{}")->options.allows_unsettled);
+  EXPECT_TRUE(read(R"({"allow_unsettled": true})")->options.allows_unsettled);
   EXPECT_EQ(read(R"({"observer": {}, "no_observer": true})").error().faults.front().code,
             ErrorCode::kConflict);
   const auto code = [&](const char* text, bool observer) {

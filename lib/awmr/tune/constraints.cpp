@@ -148,7 +148,7 @@ ConstraintReport noise_gain(const Gains<double>& gains, const ConstraintContext&
 }
 
 /// The constraints that are evaluated for one vehicle at a time. constraints_of() adds late
-/// damping, delay margin and steering rate for all vehicles of the context together.
+/// damping, delayed damping and steering rate for all vehicles of the context together.
 std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
                                                const ConstraintContext& context,
                                                const DrawnVehicle& vehicle) {
@@ -244,7 +244,7 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
         ">= limits/late_damping of tune.json"));
     const double doubled_s = 2.0 * context.latency_s + context.sample_time_s;
     worst.push_back(at_least(
-        "delay margin", heading_damping(gains, context, ends, doubled_s, lag_s, damping_ratio),
+        "delayed damping", heading_damping(gains, context, ends, doubled_s, lag_s, damping_ratio),
         context.limits.delayed_damping,
         "smallest damping ratio of the heading loop, with motor lag and with twice the latency "
         "plus one sample, >= limits/delayed_damping of tune.json"));

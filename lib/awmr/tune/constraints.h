@@ -110,7 +110,7 @@ ConstraintReport at_most(std::string name, double value, double limit, std::stri
 ConstraintReport at_least(std::string name, double value, double limit, std::string meaning = {});
 
 /// Computes every constraint. ConstraintReport::meaning has its formula or description. T_s: sample
-/// time. Late damping and delay margin exist only with latency or motor lag, the steering rate only
+/// time. Late and delayed damping exist only with latency or motor lag, the steering rate only
 /// with a limit and a mode that steers.
 ///
 /// Each constraint is reported for the vehicle (nominal or drawn) that is nearest to the limit, or
@@ -123,7 +123,7 @@ ConstraintReport at_least(std::string name, double value, double limit, std::str
 ///
 /// Heading damping is the smallest over the vehicle's modes and the yaw rates of kRateShares. It
 /// depends on the rate through the slope of the yaw resistance g3. For the nominal plant, late
-/// damping is also computed at all these rates. For drawn plants, late damping and delay margin are
+/// damping is also computed at all these rates. For drawn plants, late and delayed damping are
 /// computed at the lowest and the highest rate only, to save time: their matrices grow with the
 /// latency.
 ///

@@ -167,7 +167,10 @@ void describe_certificate(JsonObject& json) {
 /// TradeOff: Pareto front of the search, and named gains such as "tuned".
 void describe_trade_off(JsonObject& json) {
   const auto describe_point = numbers_at({"settling_time_s", "control_variation"}, kNonNegative);
-  json.objects("front", describe_point);
+  json.objects("front", [&](JsonObject& point) {
+    describe_point(point);
+    if (point.has("heading")) gains_from_json(point);  // not in older files
+  });
   json.object("gains").values(describe_point);
 }
 

@@ -5,6 +5,7 @@
 /// documentation. `value` is a double, an int, or an optional number or interval.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "awmr/core/number_rule.h"
@@ -75,6 +76,14 @@ inline constexpr SearchedGain kSearchedGains[] = {
     {"speed_mu", &GainBounds::speed_mu, [](const Gains<double>& g) { return g.speed.mu; }},
     {"speed_epsilon", &GainBounds::speed_epsilon,
      [](const Gains<double>& g) { return g.speed.epsilon; }}};
+
+/// True if each gain is within its bounds. Absent bounds permit every value.
+inline bool is_within(const Gains<double>& gains, const GainBounds& bounds) {
+  return std::ranges::all_of(kSearchedGains, [&](const SearchedGain& gain) {
+    const std::optional<Interval>& bound = bounds.*gain.bounds;
+    return !bound || bound->contains(gain.of(gains));
+  });
+}
 
 /// Keys of /bounds in tune.json. The number range applies to both ends of each interval.
 template <class Bounds, class Field>

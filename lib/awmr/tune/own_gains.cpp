@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// A mode uses its own gains if its objective with them is at most this share of that with the
-/// gains for all modes.
+/// A mode uses its own gains if they are worth it: its objective with them is at most this share of
+/// that with the gains for all modes, or they settle much faster (kMuchFaster).
 constexpr double kWorthOwnGains = 0.95;
 
 template <class Results>
@@ -28,6 +28,7 @@ Tuning in_mode(Tuning tuning, YawMode mode) {
   keep_only(mode, tuning.held_out_scores);
   keep_only(mode, tuning.certificate->modes);
   keep_only(mode, tuning.unsettled);
+  keep_only(mode, tuning.alone);
   if (!tuning.robust) return tuning;
   keep_only(mode, tuning.robust->evaluated);
   keep_only(mode, tuning.robust->evaluated_by_scenario);
@@ -35,12 +36,16 @@ Tuning in_mode(Tuning tuning, YawMode mode) {
   return tuning;
 }
 
-/// True if the gains `own` have an objective that is lower by at least 5 % than with `common`, and
-/// at least as many runs settle, or 95 % of them. `objective`: objective of the runs of one mode.
+/// True if the gains `own` are better than `common`: the objective is lower by at least 5 %, or it
+/// is not higher and the mean settling time is at most kMuchFaster times as long. At least as many
+/// runs must settle, or 95 % of them. `objective`: objective of the runs of one mode.
 bool is_better(const Gains<double>& own, const Gains<double>& common, const Objective& objective) {
-  const double limit = kWorthOwnGains * objective(common).objective;
+  const Evaluation of_own = objective(own), of_common = objective(common);
+  const bool is_much_faster =
+      of_own.trade_off.settling_time_s <= kMuchFaster * of_common.trade_off.settling_time_s;
+  const double limit = (is_much_faster ? 1.0 : kWorthOwnGains) * of_common.objective;
   const ObjectiveSetting& runs = objective.setting();
-  return objective(own).objective <= limit &&
+  return of_own.objective <= limit &&
          settled_share(runs, own) >= std::min(kSettledShare, settled_share(runs, common));
 }
 

@@ -153,7 +153,7 @@ std::vector<Looked> Problem::look_at(std::span<const Point> points) {
   for (Looked& looked : all) {
     if (looked.candidate.violation <= 0.0 || simulate_all) {
       add_runs(*next, looked);
-      if (looked.candidate.feasible()) met.push_back(next->trade_off);
+      if (looked.candidate.feasible()) met.push_back({next->trade_off, looked.candidate.gains});
       ++next;
     }
     ++evaluations;

@@ -96,8 +96,8 @@ class Problem {
   Candidate nearest;    ///< the best candidate so far, in the order of better()
   int evaluations = 0;  ///< number of evaluated points
   int simulated = 0;    ///< number of points whose runs were simulated
-  /// Settling time and control variation of all feasible points.
-  std::vector<TradeOffPoint> met;
+  /// All feasible points, with their settling time and control variation.
+  std::vector<FrontPoint> met;
   /// Evaluations whose objective is better than that of all evaluations before them.
   std::vector<SearchStep> steps;
 

@@ -3,16 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/option_text.h"
 #include "awmr/tune/goals.h"
 #include "awmr/tune/relaxation.h"
 #include "awmr/tune/settling.h"
 #include "awmr/tune/tuning_steps.h"
+#include "awmr/tune/unsettled_text.h"
 
 namespace awmr {
 namespace {
@@ -34,13 +37,13 @@ std::string in_words(const Gains<double>& g) {
 /// Returns text such as " 32 % of the runs settle with these gains. This change lets the runs
 /// settle (...): ...". Empty if enough runs settle.
 std::string unsettled_text(const Objective& objective, const ConstraintContext& context,
-                           const Gains<double>& gains) {
+                           const TuneOptions& requested, const Gains<double>& gains) {
   ObjectiveSetting setting = on_few_vehicles(objective.setting());
   setting.goals.clear();
   const double share = settled_share(setting, gains);
   if (share >= kSettledShare) return {};
   const std::vector<SettlingChange> changes =
-      SettlingSearch(context).changes(setting, gains, kSettledShare);
+      SettlingSearch(context, requested.bounds).changes(setting, gains, kSettledShare);
   return fmt::format(
       " {:.0f} % of the runs settle with these gains. {}.", 100.0 * share,
       changes.empty() ? no_change_settles("the runs") : describe(changes, "the runs"));
@@ -77,12 +80,28 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
                   "of this goal to true, raise its limits, or increase `local_evaluations`{}",
                   goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
                   rounded_up(e.goal_quantile[worst]),
-                  unsettled_text(objective, context, found.nearest.gains),
+                  unsettled_text(objective, context, requested, found.nearest.gains),
                   is_rate_limited
                       ? ". One default scenario is slow, because it limits the heading rate "
                         "to the highest measured yaw rate; " +
                             option_text("heading_rate_limit") + " none removes that scenario"
                       : ""));
+}
+
+/// Returns the runs of each mode in which the tuned gains never settle in any scenario.
+/// Modes that cannot turn the vehicle (UnsettledRuns::why) are left out: no gains let them settle.
+std::vector<UnsettledRuns> never_settling(const Tuning& tuning) {
+  std::vector<UnsettledRuns> never;
+  for (const YawMode mode : kYawModes) {
+    std::vector<UnsettledRuns> in_mode;
+    std::ranges::copy_if(tuning.unsettled, std::back_inserter(in_mode),
+                         [mode](const UnsettledRuns& one) {
+                           return one.mode == mode && one.is_never && one.why.empty();
+                         });
+    const auto scenarios = std::ranges::count(tuning.scores, mode, &ModeScore::mode);
+    if (std::ssize(in_mode) == scenarios) append(never, in_mode);
+  }
+  return never;
 }
 
 std::vector<std::string> violated(const std::vector<ConstraintReport>& all) {
@@ -149,6 +168,27 @@ tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs
                   "the {} runs settles. The gains with the smallest objective are {}. {}",
                   runs, in_words(gains),
                   changes.empty() ? no_change_settles("a run") : describe(changes, "runs")));
+}
+
+Status check_settled(const Tuning& tuning, const TuneOptions& requested) {
+  if (requested.allows_unsettled) return {};
+  std::vector<UnsettledRuns> never = never_settling(tuning);
+  for (const Tuning& one : tuning.own) append(never, never_settling(one));
+  if (never.empty()) return {};
+  Error error{.kind = ErrorKind::kRefused, .faults = {}};
+  const UnsettledRuns& first = never.front();
+  const std::string pointer = first.variation         ? "/" + first.variation->key
+                              : first.changes.empty() ? ""
+                                                      : first.changes.front().pointer;
+  const bool has_place = !requested.file.empty() && !pointer.empty();
+  const std::string place = has_place ? requested.file + ":" + pointer : "";
+  for (const std::string& text : unsettled_texts(never)) {
+    error.faults.push_back({ErrorCode::kNoGains, place,
+                            fmt::format("{}. Without noise and in {:g} times the duration, no run "
+                                        "settles either. To write these gains nevertheless: {}",
+                                        text, kMostTime, option_text("allow_unsettled"))});
+  }
+  return tl::unexpected(std::move(error));
 }
 
 }  // namespace awmr

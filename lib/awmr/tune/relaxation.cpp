@@ -47,7 +47,7 @@ const std::vector<Limit>& limits() {
       {"limits/delayed_damping",
        [](ConstraintContext& c) -> double& { return c.limits.delayed_damping; },
        kLimitShare,
-       {"delay margin"},
+       {"delayed damping"},
        true},
       {"limits/noise_share",
        [](ConstraintContext& c) -> double& { return c.limits.noise_share; },

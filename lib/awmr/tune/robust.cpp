@@ -55,16 +55,24 @@ EvaluatedRuns in_scenario(const EvaluatedRuns& runs, std::size_t scenario, std::
   return of_one;
 }
 
+/// Multiplies m' and I'z.
+void scale_mass(double factor, DrawnVehicle& vehicle) {
+  vehicle.plant.mass_norm *= factor;
+  vehicle.plant.inertia_norm *= factor;
+}
+
+/// Mass factor of drawn vehicle `number` (1, 2, ...). It changes from each vehicle to the next.
+double mass_factor(const UnmodelledVariation& open, std::size_t number) {
+  const std::size_t masses = open.mass_factors.size();
+  return masses == 0 ? 1.0 : open.mass_factors[(number - 1) % masses];
+}
+
 /// Applies the unmodelled variation (payload, battery voltage) to drawn vehicle `number` (1, 2,
-/// ...). The mass factor changes from each vehicle to the next. The wheel-force range changes after
-/// all mass factors were used with it.
+/// ...). The wheel-force range changes after all mass factors were used with it.
 void open_up(const UnmodelledVariation& open, std::size_t number, DrawnVehicle& vehicle) {
   const std::size_t turn = (number - 1) % open.combinations();
   const std::size_t masses = std::max<std::size_t>(1, open.mass_factors.size());
-  if (!open.mass_factors.empty()) {
-    vehicle.plant.mass_norm *= open.mass_factors[turn % masses];
-    vehicle.plant.inertia_norm *= open.mass_factors[turn % masses];
-  }
+  scale_mass(mass_factor(open, number), vehicle);
   if (!open.wheel_forces.empty()) vehicle.wheel_force = open.wheel_forces[turn / masses];
 }
 
@@ -117,6 +125,15 @@ Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std
   for (const Plant<double>& plant : plants) {
     vehicles.push_back({plant, model.vehicle.wheel_force});
     open_up(open, vehicles.size() - 1, vehicles.back());
+  }
+  return vehicles;
+}
+
+std::vector<DrawnVehicle> without(const UnmodelledVariation& open,
+                                  std::vector<DrawnVehicle> vehicles) {
+  for (std::size_t i = 1; i < vehicles.size(); ++i) {
+    scale_mass(1.0 / mass_factor(open, i), vehicles[i]);
+    if (!open.wheel_forces.empty()) vehicles[i].wheel_force = vehicles.front().wheel_force;
   }
   return vehicles;
 }

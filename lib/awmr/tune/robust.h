@@ -22,6 +22,12 @@ enum class Spread { kRandom, kEven };
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
                                               const UnmodelledVariation& open, Spread spread);
 
+/// Removes the unmodelled variation `open` from drawn vehicles: divides m' and I'z by their mass
+/// factors, and restores the model's own wheel-force range. `vehicles`: the first vehicles that
+/// vehicles_of() returned with this variation, or with `open` as a part of it.
+std::vector<DrawnVehicle> without(const UnmodelledVariation& open,
+                                  std::vector<DrawnVehicle> vehicles);
+
 /// Gains to evaluate, with their name in the result (EvaluatedGains::gains).
 struct NamedCandidate {
   const char* name;

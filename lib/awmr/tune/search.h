@@ -21,9 +21,9 @@ struct SearchResult {
   int evaluations = 0;  ///< evaluated sets of gains, on some or all drawn vehicles
   int simulated = 0;    ///< number of evaluated sets whose runs were simulated
   SearchHistory history;
-  /// Settling time and control variation of all feasible gains, on the drawn vehicles of the
-  /// search.
-  std::vector<TradeOffPoint> met;
+  /// All feasible gains, with their settling time and control variation on the drawn vehicles of
+  /// the search.
+  std::vector<FrontPoint> met;
   std::string algorithm;
   std::string stop_reason;
 };

@@ -13,6 +13,7 @@
 #include "awmr/core/parallel.h"
 #include "awmr/tune/certificate.h"
 #include "awmr/tune/feasible_gains.h"
+#include "awmr/tune/option_table.h"
 #include "awmr/tune/pole_placement.h"
 #include "awmr/tune/problem.h"
 #include "awmr/tune/search.h"
@@ -101,7 +102,7 @@ std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSe
   if (has_observer || !requested.adds_observer) return std::nullopt;
   const double share = settled_share(setting, gains);
   if (share >= kSettledShare || (share > 0.0 && noise_effect(setting, gains)) ||
-      !SettlingSearch(context).observer_helps(setting, gains)) {
+      !SettlingSearch(context, requested.bounds).observer_helps(setting, gains)) {
     return std::nullopt;
   }
   TuneOptions options = requested;
@@ -115,7 +116,7 @@ std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSe
   Result<Tuning> observed = search_gains(model, setting, context, options, held_out);
   if (!observed || settled_share(setting, observed->gains) < share + kWorthIt) {
     if (options.notice) {
-      options.notice("the observer does not let more runs settle; it is not used");
+      options.notice("hardly more runs settle with the observer, so it is not used");
     }
     return std::nullopt;
   }
@@ -142,7 +143,7 @@ struct Searched {
 /// Error (refused) if no run settles with the tuned gains, not even without sensor noise. `scores`:
 /// runs of the nominal vehicle. Usually one of these runs settles, so nothing else is simulated.
 Status check_settling(const Searched& s, const std::vector<ModeScore>& scores) {
-  if (std::ranges::any_of(scores, has_settled)) return {};
+  if (s.options.allows_unsettled || std::ranges::any_of(scores, has_settled)) return {};
   const Gains<double>& gains = s.settled.gains;
   if (settled_share(s.setting, gains) > 0.0 ||
       settled_share_without_noise(s.setting, gains) > 0.0) {
@@ -152,7 +153,7 @@ Status check_settling(const Searched& s, const std::vector<ModeScore>& scores) {
   few.goals.clear();
   constexpr double kAny = 1e-9;
   std::vector<SettlingChange> changes = scenario_changes(few, gains, kAny);
-  std::ranges::move(SettlingSearch(s.context).changes(few, gains, kAny),
+  std::ranges::move(SettlingSearch(s.context, s.requested.bounds).changes(few, gains, kAny),
                     std::back_inserter(changes));
   const std::size_t runs =
       s.setting.vehicles.size() * s.setting.modes().size() * s.setting.scenarios.size();
@@ -171,12 +172,12 @@ struct ModesAlone {
 ///   - the tuned gains, made faster by the square root and the fourth root of a ratio: lambda by
 ///     pole placement for this mode, divided by lambda by pole placement for all modes. These gains
 ///     need not meet the constraints, because the search for one mode ensures that.
+/// Gains outside of the bounds that the user gave are not tried.
 /// With an observer, all modes have the friction width of the steering, which is wide if the
 /// compass is noisy. With a width of its own, a mode corrects dry friction without waiting for the
 /// observer, so gains for each mode alone can then be better in any case.
 ModesAlone modes_alone(const Searched& s) {
-  constexpr double kMuchFaster = 0.75;  // of the settling time
-  constexpr double kBetter = 0.97;      // of the objective
+  constexpr double kBetter = 0.97;  // of the objective
   ModesAlone found;
   if (s.setting.modes().size() < 2) return found;
   const Gains<double>& tuned = s.settled.gains;
@@ -194,15 +195,17 @@ ModesAlone modes_alone(const Searched& s) {
     const Evaluation of_poles = objective(poles);
     const double tuned_s = of_tuned.trade_off.settling_time_s;
     const double poles_s = of_poles.trade_off.settling_time_s;
-    if (meets_constraints(poles, context) && of_poles.valid &&
-        of_poles.objective < of_tuned.objective && poles_s < kMuchFaster * tuned_s) {
+    if (is_within(poles, s.requested.bounds) && meets_constraints(poles, context) &&
+        of_poles.valid && of_poles.objective < of_tuned.objective &&
+        poles_s < kMuchFaster * tuned_s) {
       found.faster.push_back(
           {.mode = mode, .settling_time_s = poles_s, .tuned_settling_time_s = tuned_s});
     }
     const double ratio = poles.heading.lambda / common_poles.heading.lambda;
     for (const double factor : {std::sqrt(ratio), std::sqrt(std::sqrt(ratio))}) {
-      const bool is_better =
-          ratio > 1.0 && objective(slowed(tuned, factor)).objective < kBetter * of_tuned.objective;
+      const Gains<double> faster = slowed(tuned, factor);
+      const bool is_better = ratio > 1.0 && is_within(faster, s.requested.bounds) &&
+                             objective(faster).objective < kBetter * of_tuned.objective;
       found.is_any_better = found.is_any_better || is_better;
     }
   }

@@ -12,6 +12,7 @@
 
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
+#include "awmr/tune/option_table.h"
 #include "awmr/tune/pole_placement.h"
 #include "awmr/tune/relaxation.h"
 #include "awmr/tune/steering_rate.h"
@@ -57,6 +58,9 @@ std::optional<SettlingChange> no_rate_limit(const ObjectiveSetting& setting,
                         fmt::format("{} in place of the heading-rate limit of {:.3g} deg/s",
                                     option_text("heading_rate_limit none"), *limit_degps)};
 }
+
+/// Name of the change of wider_bounds(), as a key of SettlingSearch::poles().
+constexpr const char* kWiderBounds = "bounds";
 
 /// True if at least `share` of the runs settle with one of the sets of gains.
 bool any_settles(const ObjectiveSetting& setting, const std::vector<Gains<double>>& gains,
@@ -129,7 +133,8 @@ const std::vector<Gains<double>>& SettlingSearch::poles(const std::string& chang
   const auto [known, is_new] = poles_.try_emplace({change, observer.bandwidth_radps});
   if (is_new) {
     for (const Gains<double>& gains : starting_poles(changed, observer)) {
-      if (meets_constraints(gains, changed)) known->second.push_back(gains);
+      const bool is_permitted = change == kWiderBounds || is_within(gains, bounds_);
+      if (is_permitted && meets_constraints(gains, changed)) known->second.push_back(gains);
     }
   }
   return known->second;
@@ -155,7 +160,7 @@ std::optional<SettlingChange> SettlingSearch::an_observer(const ObjectiveSetting
   if (gains.observer.is_on()) return std::nullopt;
   const auto change = [](double bandwidth_radps, const std::string& more) {
     return SettlingChange{"/observer",
-                          fmt::format("{}{} (confirmed with a bandwidth of {:g} rad/s)",
+                          fmt::format("{}{} (a disturbance observer; tried with {:g} rad/s)",
                                       option_text("observer"), more, bandwidth_radps)};
   };
   if (const auto bandwidth = settling_bandwidth_radps(setting, {}, context_, share)) {
@@ -184,6 +189,22 @@ std::optional<SettlingChange> SettlingSearch::one_mode(const ObjectiveSetting& s
     const std::string option = option_text("mode " + std::string(name_of(mode)));
     if (!any_settles(runs, poles(option, alone), share)) continue;
     return SettlingChange{"/mode", option + ", gains for this mode only"};
+  }
+  return std::nullopt;
+}
+
+std::optional<SettlingChange> SettlingSearch::wider_bounds(const ObjectiveSetting& setting,
+                                                           const Gains<double>& gains,
+                                                           double share) {
+  for (const Gains<double>& other : poles(kWiderBounds, context_, gains.observer)) {
+    if (is_within(other, bounds_) || !enough_settle(setting, other, share)) continue;
+    std::vector<std::string> texts;
+    for (const SearchedGain& gain : kSearchedGains) {
+      const std::optional<Interval>& bound = bounds_.*gain.bounds;
+      if (!bound || bound->contains(gain.of(other))) continue;
+      texts.push_back(fmt::format("`bounds/{}` that contain {:.3g}", gain.key, gain.of(other)));
+    }
+    return SettlingChange{"/bounds", fmt::format("{}", fmt::join(texts, " together with "))};
   }
   return std::nullopt;
 }
@@ -233,7 +254,8 @@ std::vector<SettlingChange> scenario_changes(const ObjectiveSetting& setting,
 std::vector<SettlingChange> SettlingSearch::changes(const ObjectiveSetting& setting,
                                                     const Gains<double>& gains, double share) {
   std::vector<SettlingChange> changes;
-  for (const auto& change : {an_observer(setting, gains, share), one_mode(setting, share)}) {
+  for (const auto& change : {an_observer(setting, gains, share), one_mode(setting, share),
+                             wider_bounds(setting, gains, share)}) {
     if (change) changes.push_back(*change);
   }
   std::ranges::copy(relaxed(setting, gains, share), std::back_inserter(changes));
@@ -251,8 +273,8 @@ std::string describe(const std::vector<SettlingChange>& changes, std::string_vie
 std::string no_change_settles(std::string_view runs) {
   return fmt::format(
       "No change was found that lets {} settle. Tried: four times the duration; no heading-rate "
-      "limit; an observer, gains for one mode only and relaxed limits (these three with gains by "
-      "pole placement in place of a search)",
+      "limit; an observer, gains for one mode only, wider bounds and relaxed limits (the last four "
+      "with gains by pole placement in place of a search)",
       runs);
 }
 

@@ -56,7 +56,9 @@ std::vector<SettlingChange> scenario_changes(const ObjectiveSetting& setting,
 /// modes.
 class SettlingSearch {
  public:
-  explicit SettlingSearch(const ConstraintContext& context) : context_(context) {}
+  /// `bounds`: bounds that the user gave.
+  explicit SettlingSearch(const ConstraintContext& context, const GainBounds& bounds = {})
+      : context_(context), bounds_(bounds) {}
 
   /// True if in at least one scenario and mode, fewer than kSettledShare of the runs settle with
   /// the given gains, and an observer helps: with the observer and gains by pole placement, half of
@@ -69,14 +71,16 @@ class SettlingSearch {
   ///   - an observer with gains by pole placement, if the gains have no observer. If that does not
   ///     suffice, the limit of the steering rate is relaxed, too
   ///   - gains for one mode only, by pole placement, if several modes are tuned
+  ///   - wider bounds, with gains by pole placement outside of the given bounds
   ///   - a relaxed limit (relaxed_limits()), with the given gains or with gains by pole placement.
   ///     Of the tried values of a limit, the strictest that suffices is returned
   std::vector<SettlingChange> changes(const ObjectiveSetting& setting, const Gains<double>& gains,
                                       double share);
 
  private:
-  /// Gains by pole placement that meet the constraints of `changed`, the context after the change.
-  /// `change`: name of the change, the key of the cache `poles_`.
+  /// Gains by pole placement that meet the constraints of `changed`, the context after the change,
+  /// and are within the bounds, unless `change` is kWiderBounds. `change`: name of the change, the
+  /// key of the cache `poles_`.
   const std::vector<Gains<double>>& poles(const std::string& change,
                                           const ConstraintContext& changed,
                                           const ObserverGains<double>& observer = {});
@@ -89,10 +93,13 @@ class SettlingSearch {
   std::optional<SettlingChange> an_observer(const ObjectiveSetting& setting,
                                             const Gains<double>& gains, double share);
   std::optional<SettlingChange> one_mode(const ObjectiveSetting& setting, double share);
+  std::optional<SettlingChange> wider_bounds(const ObjectiveSetting& setting,
+                                             const Gains<double>& gains, double share);
   std::vector<SettlingChange> relaxed(const ObjectiveSetting& setting, const Gains<double>& gains,
                                       double share);
 
   const ConstraintContext& context_;
+  GainBounds bounds_;
   /// Gains from poles(), by the name of the change and the bandwidth of the observer.
   std::map<std::pair<std::string, double>, std::vector<Gains<double>>> poles_;
 };

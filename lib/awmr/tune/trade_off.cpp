@@ -20,20 +20,21 @@ LqiWeights<double> lqi_weights(const ConstraintContext& context) {
 
 }  // namespace
 
-std::vector<TradeOffPoint> front_of(std::vector<TradeOffPoint> points) {
-  std::ranges::sort(points, {}, [](const TradeOffPoint& p) {
-    return std::pair(p.settling_time_s, p.control_variation);
+std::vector<FrontPoint> front_of(std::vector<FrontPoint> points) {
+  std::ranges::sort(points, {}, [](const FrontPoint& one) {
+    return std::pair(one.point.settling_time_s, one.point.control_variation);
   });
-  std::vector<TradeOffPoint> front;
-  for (const TradeOffPoint& point : points) {
-    if (!front.empty() && !(point.control_variation < front.back().control_variation)) continue;
-    front.push_back(point);
+  std::vector<FrontPoint> front;
+  for (const FrontPoint& one : points) {
+    const double variation = one.point.control_variation;
+    if (!front.empty() && !(variation < front.back().point.control_variation)) continue;
+    front.push_back(one);
   }
   return front;
 }
 
 TradeOff trade_off_of(const Objective& searched, const ConstraintContext& context,
-                      std::vector<TradeOffPoint> met, const Gains<double>& tuned,
+                      std::vector<FrontPoint> met, const Gains<double>& tuned,
                       const Gains<double>& baseline) {
   TradeOff result{.front = front_of(std::move(met)), .named = {}};
   const auto add = [&result](const char* name, const Evaluation& evaluation) {

@@ -164,13 +164,14 @@ Result<Tuning> tune_for(std::optional<YawMode> mode, const Model& model, TuningP
     tuning.robust = std::move(robust);
     AWMR_RETURN_IF_ERROR(evaluate_on_new_vehicles(model, setting, options, tuning));
   }
-  const bool is_varied = tuning.robust && options.open.combinations() > 1;
-  tuning.unsettled = unsettled_runs(tuning, setting, context, is_varied);
+  tuning.unsettled = unsettled_runs(tuning, setting, context, options);
   return tuning;
 }
 
-Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
-  TuneOptions options = requested;
+namespace {
+
+/// tune(), without the check that runs settle with the gains.
+Result<Tuning> tuned(const Model& model, TuneOptions options) {
   AWMR_RETURN_IF_ERROR(check_options(options, model.vehicle));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_ASSIGN_OR_RETURN(const Scenario held_out, held_out_scenario(model, options.mode));
@@ -194,6 +195,14 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
         "mode, which takes one to three times as long as the first search");
   }
   return tune_by_mode(model, problem, options, held_out, std::move(common));
+}
+
+}  // namespace
+
+Result<Tuning> tune(const Model& model, const TuneOptions& options) {
+  AWMR_ASSIGN_OR_RETURN(Tuning tuning, tuned(model, options));
+  AWMR_RETURN_IF_ERROR(check_settled(tuning, options));
+  return tuning;
 }
 
 }  // namespace awmr

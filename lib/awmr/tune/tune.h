@@ -226,6 +226,8 @@ struct TuneOptions {
   /// faster (Tuning::alone, Tuning::is_mode_better_alone), tune() also searches gains for each mode
   /// (tune_by_mode() in tuning_steps.h). Must be false if `mode` is present.
   bool one_set = false;
+  /// true: tune() returns gains even if in some mode the vehicle never settles with them.
+  bool allows_unsettled = false;
   /// Called with the number of evaluated sets of gains and with the budget, which is
   /// global_evaluations + local_evaluations. The last stage of the search, on all draws, is not
   /// counted. A search that is repeated (adds_observer, one_set) counts from 0 again.
@@ -360,13 +362,18 @@ struct TradeOffPoint {
   double settling_time_s = 0.0;
   double control_variation = 0.0;  ///< 1/s, as Metrics::control_variation
 };
+/// A point of the Pareto front, with the gains that reach it.
+struct FrontPoint {
+  TradeOffPoint point{};
+  Gains<double> gains{};
+};
 struct NamedTradeOff {
   std::string gains;  ///< name: "tuned", "baseline", "paper" or "lqi"
   TradeOffPoint point;
 };
 struct TradeOff {
   /// Pareto front of the feasible gains that the search evaluated, sorted by settling time.
-  std::vector<TradeOffPoint> front;
+  std::vector<FrontPoint> front;
   /// Points of named gains in the same runs. Gains with which a run breaks off are left out. "lqi"
   /// is the LQI law (linear-quadratic with integral, control/heading_lqi.h). Its weights follow
   /// from Bryson's rule: 1 over the square of an acceptable value. With p the largest heading step,
@@ -430,6 +437,11 @@ struct FrictionEffect {
   double error_deg = 0.0;
   double observer_radps = 0.0;  ///< bandwidth of the observer, rad/s; 0 without one
 };
+/// Unmodelled variation (TuneOptions::open) that keeps runs from settling.
+struct VariationEffect {
+  std::string key;             ///< in tune.json: "open", "open/mass_factors" or "open/wheel_forces"
+  double share_without = 0.0;  ///< share of the runs that settle without it, [0, 1]
+};
 /// Error of an identified quantity that keeps runs from settling.
 struct UnsettlingError {
   std::string quantity;        ///< for messages, such as "the yaw resistance g3"
@@ -445,6 +457,8 @@ struct UnsettledRuns {
   double settled_share = 0.0;  ///< share of the runs that settle, [0, kSettledShare)
   /// Why the mode cannot turn the vehicle (turning.h); empty if it can.
   std::string why = {};
+  /// Unmodelled variation that keeps the runs from settling. Other causes are then not tried.
+  std::optional<VariationEffect> variation = {};
   /// Effect of Coulomb friction in yaw; absent if it is not a cause.
   std::optional<FrictionEffect> friction = {};
   /// Effect of sensors without noise; absent if the noise is not the cause.
@@ -456,6 +470,9 @@ struct UnsettledRuns {
   /// the cause. If enough runs of the identified vehicle settle, these are only changes of the
   /// scenario.
   std::vector<SettlingChange> changes = {};
+  /// True: no run of a drawn vehicle settles, not even without sensor noise and in kMostTime times
+  /// the duration of the scenario (settling.h).
+  bool is_never = false;
   /// Number of vehicles on which the changes of the gains were tried.
   std::size_t vehicles = 0;
 };
@@ -573,7 +590,9 @@ Result<Scenario> held_out_scenario(const Model& model, std::optional<YawMode> mo
 ///     not soft;
 ///   - in every mode, the largest yaw moment is below the yaw resistance at 1 deg/s (turning.h);
 ///   - runs diverge with all gains;
-///   - no run settles with the tuned gains, not even without sensor noise.
+///   - no run settles with the tuned gains, not even without sensor noise, or in some mode that can
+///     turn the vehicle, they never settle (UnsettledRuns::is_never). TuneOptions::allows_unsettled
+///     permits such gains.
 ///
 /// Errors (input): the model lacks a parameter; an option is invalid; the latency exceeds 20
 /// samples; no wheel force is left for an observer; runs with the baseline break off; the

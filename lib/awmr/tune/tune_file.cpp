@@ -59,6 +59,8 @@ void read_search(JsonObject& json, TuneOptions& options) {
   }
   options.nominal = json.optional_boolean("nominal").value_or(options.nominal);
   options.adds_observer = !json.optional_boolean("no_observer").value_or(!options.adds_observer);
+  options.allows_unsettled =
+      json.optional_boolean("allow_unsettled").value_or(options.allows_unsettled);
   if (json.has("goals")) options.evaluation_draws = kGoalDraws;
   if (auto open = json.optional_object("open", read_open)) {
     options.open = *std::move(open);

@@ -32,6 +32,7 @@ Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name
 ///   bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
 ///   observer {bandwidth_radps [lo, hi], yaw_max_m, surge_max},
 ///   no_observer (true: tune() adds no observer),
+///   allow_unsettled (true: also gains that never settle in some mode),
 ///   nominal, or draws (32), judged_draws (draws of the evaluation: 50; with goals 500) and
 ///   tail_share,
 ///   activity_max,

@@ -11,10 +11,9 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/conditions.h"
-#include "awmr/simulate/meter.h"
 #include "awmr/simulate/validity.h"
-#include "awmr/tune/settling.h"
 #include "awmr/tune/steering_rate.h"
+#include "awmr/tune/unsettled_text.h"
 
 namespace awmr {
 namespace {
@@ -32,89 +31,6 @@ void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
            is_missed ? "tune on more draws (" + option_text("draws") +
                            "), raise the goal's limits or lower its share"
                      : std::string("increase judged_draws"))});
-}
-
-/// Half width of the settling band, for messages.
-std::string settling_band() {
-  return fmt::format("the larger of {:g} deg and {:g} % of the step", meter::kSettledLeastDeg,
-                     100.0 * meter::kSettledShare);
-}
-
-/// Returns the part of a message that reports the effect of friction.
-std::string friction_text(const FrictionEffect& friction) {
-  std::string text = fmt::format(
-      ". Without the dry (Coulomb) friction in yaw, {:.0f} % settle: it can hold the vehicle "
-      "{:.2g} deg from the commanded heading, and the settling band is {}",
-      100.0 * friction.share_without, friction.error_deg, settling_band());
-  if (friction.observer_radps > 0.0) {
-    text += fmt::format(". The observer reduces this error by a factor of 2.7 in {:.2g} s",
-                        1.0 / friction.observer_radps);
-  }
-  return text;
-}
-
-/// Returns the end of a message about runs that do not settle: why the mode cannot turn the
-/// vehicle, or the changes with which the runs settle.
-std::string advice_for(const UnsettledRuns& found) {
-  if (!found.why.empty()) return ": " + found.why;
-  std::string advice = found.friction ? friction_text(*found.friction) : "";
-  if (const auto& noise = found.noise) {
-    return advice +
-           fmt::format(
-               ". With noise-free sensors{}, {:.0f} % settle{}: {} the heading out of the settling "
-               "band, {}. Use sensors with less noise, or filter their readings and enter the new "
-               "`noise` and `noise_correlation_s` in vehicle.json{}",
-               noise->is_of_identified ? " and the identified values of all parameters" : "",
-               100.0 * noise->share_without,
-               noise->time_factor > 1.0
-                   ? fmt::format(" in {:g} times the duration (the limits make the gains slow)",
-                                 noise->time_factor)
-                   : "",
-               noise->is_of_identified ? "noise and errors of the model together move"
-                                       : "the noise moves",
-               settling_band(),
-               noise->is_of_identified ? ", and record trials that reduce the errors (awmr suggest)"
-                                       : "");
-  }
-  if (const auto& error = found.error) {
-    advice += fmt::format(
-        ". With the identified values of all parameters, {:.0f} % settle, so errors of the model "
-        "keep runs from settling. The largest effect has the error of {}: with its identified "
-        "value alone, {:.0f} % settle. Record {}, and identify again",
-        100.0 * error->share_of_identified, error->quantity, 100.0 * error->settled_share,
-        error->trial);
-    if (found.changes.empty()) return advice;
-  }
-  const std::string runs =
-      fmt::format("{:g} % of the runs of {} vehicles", 100.0 * kSettledShare, found.vehicles);
-  return advice + ". " +
-         (found.changes.empty() ? no_change_settles(runs) : describe(found.changes, runs));
-}
-
-/// Returns a warning for each advice, with all scenarios and modes that get this advice, and the
-/// shares of their runs that settle: "40 % (SCENARIO, MODE), 0 % (...)".
-std::vector<Finding> unsettled_findings(std::span<const UnsettledRuns> unsettled) {
-  std::vector<std::pair<std::string, std::string>> all;  // runs and advice
-  for (const UnsettledRuns& one : unsettled) {
-    const std::string runs =
-        fmt::format("{:.0f} % ({}{}{})", 100.0 * one.settled_share, one.scenario,
-                    one.scenario.empty() ? "" : ", ", name_of(one.mode));
-    const std::string advice = advice_for(one);
-    const auto known = std::ranges::find(all, advice, &std::pair<std::string, std::string>::second);
-    if (known == all.end()) {
-      all.emplace_back(runs, advice);
-    } else {
-      known->first += ", " + runs;
-    }
-  }
-  std::vector<Finding> findings;
-  for (const auto& [runs, advice] : all) {
-    findings.push_back(
-        {"", 0, Severity::kWarning, "unsettled",
-         fmt::format("of the runs with the tuned gains, {} settle after every heading step{}", runs,
-                     advice)});
-  }
-  return findings;
 }
 
 void note_certificate(const ModeCertificate& certificate, std::vector<Finding>& findings) {
@@ -145,9 +61,10 @@ void note_observer(const Tuning& tuning, std::vector<Finding>& findings) {
   if (bandwidths.empty()) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "observer-added",
-       fmt::format("fewer than {:g} % of the runs settle without a disturbance observer. An "
-                   "observer was therefore tuned, which the firmware runs (bandwidth: {}). To tune "
-                   "without an observer: {}",
+       fmt::format("fewer than {:g} % of the runs settle without a disturbance observer, which "
+                   "compensates constant forces such as dry friction. An observer was therefore "
+                   "tuned, which the firmware runs (bandwidth: {}). To tune without an observer: "
+                   "{}",
                    100.0 * kSettledShare, bandwidths, option_text("no_observer"))});
 }
 
@@ -177,6 +94,40 @@ void note_baseline(const Tuning& tuning, std::vector<Finding>& findings) {
                    option_text("baseline"))});
 }
 
+/// True if the paper's gains settle in at least kSettledShare of the runs in the mode and scenario
+/// of `baseline`.
+bool paper_settles(const std::vector<EvaluatedGains>& all, const EvaluatedGains& baseline) {
+  return std::ranges::any_of(all, [&](const EvaluatedGains& one) {
+    return one.gains == "paper" && one.mode == baseline.mode && one.scenario == baseline.scenario &&
+           one.completed_share >= kSettledShare;
+  });
+}
+
+/// The objective divides by the metrics of the baseline. Adds the note `baseline-unsettled` if no
+/// run of a scenario and mode settles with the baseline.
+void note_unsettled_baseline(const Tuning& tuning, std::vector<Finding>& findings) {
+  if (!tuning.robust) return;
+  const RobustTuning& robust = *tuning.robust;
+  const auto& all =
+      robust.evaluated_by_scenario.empty() ? robust.evaluated : robust.evaluated_by_scenario;
+  std::string where;
+  bool settles_with_paper = true;
+  for (const EvaluatedGains& one : all) {
+    if (one.gains != "baseline" || one.completed_share > 0.0) continue;
+    where += fmt::format("{}{}{}{}", where.empty() ? "" : "; ", one.scenario,
+                         one.scenario.empty() ? "" : ", ", name_of(one.mode));
+    settles_with_paper = settles_with_paper && paper_settles(all, one);
+  }
+  if (where.empty()) return;
+  findings.push_back(
+      {"", 0, Severity::kNote, "baseline-unsettled",
+       fmt::format("with the baseline gains ({}), no run settles ({}). The objective {:.4g} is the "
+                   "ratio to these runs, so it does not show how good the tuned gains are. For a "
+                   "ratio to gains that settle: {}",
+                   tuning.baseline.source, where, tuning.objective,
+                   option_text(settles_with_paper ? "baseline paper" : "baseline FILE"))});
+}
+
 void note_modes(const Tuning& tuning, std::vector<Finding>& findings) {
   if (!tuning.own.empty()) {
     findings.push_back({"", 0, Severity::kNote, "gains-by-mode",
@@ -185,14 +136,17 @@ void note_modes(const Tuning& tuning, std::vector<Finding>& findings) {
                                     "compare, pil and the firmware use the gains of the "
                                     "selected mode. For one set: {}",
                                     option_text("one_set"))});
-    return;
   }
-  if (tuning.alone.empty()) return;
   std::string modes;
-  for (const ModeAlone& one : tuning.alone) {
-    modes += fmt::format("{}{}: {:.2g} s in place of {:.2g} s", modes.empty() ? "" : "; ",
-                         name_of(one.mode), one.settling_time_s, one.tuned_settling_time_s);
-  }
+  const auto add = [&modes](const Tuning& tuned) {
+    for (const ModeAlone& one : tuned.alone) {
+      modes += fmt::format("{}{}: {:.2g} s in place of {:.2g} s", modes.empty() ? "" : "; ",
+                           name_of(one.mode), one.settling_time_s, one.tuned_settling_time_s);
+    }
+  };
+  for (const Tuning& one : tuning.own) add(one);
+  add(tuning);
+  if (modes.empty()) return;
   findings.push_back(
       {"", 0, Severity::kNote, "faster-in-one-mode",
        fmt::format(
@@ -226,7 +180,10 @@ std::vector<Finding> search_findings(const Model& model, const TuneOptions& opti
       if (goal.gains == kRobustGains) note_goal(goal, findings);
     }
   }
-  std::ranges::move(unsettled_findings(tuning.unsettled), std::back_inserter(findings));
+  for (const std::string& text : unsettled_texts(tuning.unsettled)) {
+    findings.push_back({"", 0, Severity::kWarning, "unsettled", text});
+  }
+  note_unsettled_baseline(tuning, findings);
   note_baseline(tuning, findings);
   const auto fastest = std::ranges::max_element(
       tuning.scores, {}, [](const ModeScore& score) { return score.metrics.yaw_rate_max_degps; });

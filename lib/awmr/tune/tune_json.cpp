@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "awmr/model/gains_json.h"
 #include "awmr/model/model_json.h"
 #include "awmr/model/vehicle_json.h"
 #include "awmr/tune/option_table.h"
@@ -149,7 +150,10 @@ Json trade_off_json(const TradeOff& trade_off) {
             {"control_variation", point.control_variation}};
   };
   Json json = {{"front", Json::array()}, {"gains", Json::object()}};
-  for (const TradeOffPoint& point : trade_off.front) json["front"].push_back(point_json(point));
+  for (const FrontPoint& one : trade_off.front) {
+    json["front"].push_back(point_json(one.point));
+    json["front"].back().update(gains_to_json(one.gains));
+  }
   for (const NamedTradeOff& one : trade_off.named) json["gains"][one.gains] = point_json(one.point);
   return json;
 }

@@ -69,12 +69,12 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
 
 /// Returns the Pareto-optimal points: no other point has both a shorter settling time and a smaller
 /// control variation. Sorted by settling time.
-std::vector<TradeOffPoint> front_of(std::vector<TradeOffPoint> points);
+std::vector<FrontPoint> front_of(std::vector<FrontPoint> points);
 
 /// Returns the Pareto front of `met`, the feasible gains of a search, and the points of named gains
 /// such as the paper's (TradeOff::named), simulated in the runs of that search.
 TradeOff trade_off_of(const Objective& searched, const ConstraintContext& context,
-                      std::vector<TradeOffPoint> met, const Gains<double>& tuned,
+                      std::vector<FrontPoint> met, const Gains<double>& tuned,
                       const Gains<double>& baseline);
 
 /// Returns every requirement of the search that the baseline gains do not meet: constraints,
@@ -107,12 +107,20 @@ tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs
                                     const std::vector<SettlingChange>& changes,
                                     const TuneOptions& requested);
 
+/// Error (refused) if in some mode the tuned gains never settle (UnsettledRuns::is_never) in any
+/// scenario, unless TuneOptions::allows_unsettled is set or the mode cannot turn the vehicle. The
+/// message names the causes and the changes with which runs settle.
+Status check_settled(const Tuning& tuning, const TuneOptions& requested);
+
+/// Gains settle much faster than others if their mean settling time is at most this share.
+inline constexpr double kMuchFaster = 0.75;
+
 /// Searches gains for each mode alone. A mode keeps the gains of `common` if its search fails, if
-/// its objective falls by less than 5 %, or if fewer of its runs settle, unless 95 % settle. Both
-/// are compared in the setting of the search for the mode, whose scenarios can be shorter
-/// (TuneOptions::has_default_scenarios). Returns one Tuning with all modes: the gains of combined
-/// mode in Tuning::gains, those of the other modes in Tuning::own, and a certificate for all modes.
-/// Returns `common` if all modes keep its gains.
+/// its objective falls by less than 5 % and the own gains do not settle much faster (kMuchFaster),
+/// or if fewer of its runs settle, unless 95 % settle. Both are compared in the setting of the
+/// search for the mode, whose scenarios can be shorter (TuneOptions::has_default_scenarios). Returns
+/// one Tuning with all modes: the gains of combined mode in Tuning::gains, those of the other modes
+/// in Tuning::own, and a certificate for all modes. Returns `common` if all modes keep its gains.
 ///
 /// `problem`: the problem for which `common` was tuned for all modes. If the file of
 /// TuneOptions::baseline has gains by mode, a mode that keeps `common` is compared with those of

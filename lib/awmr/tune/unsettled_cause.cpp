@@ -9,6 +9,7 @@
 #include "awmr/core/units.h"
 #include "awmr/model/model.h"
 #include "awmr/model/parameters.h"
+#include "awmr/tune/robust.h"
 #include "awmr/tune/settling.h"
 #include "awmr/tune/steering_rate.h"
 #include "awmr/tune/turning.h"
@@ -84,11 +85,20 @@ void replace_by_damping(const ObjectiveSetting& setting, const Gains<double>& ga
   unsettled.changes = std::move(changes);
 }
 
+/// True if no run of the first drawn vehicles settles without noise in kMostTime times the
+/// duration. Without drawn vehicles: no run of the nominal vehicle.
+bool never_settles(ObjectiveSetting setting, const Gains<double>& gains) {
+  if (setting.vehicles.size() > 1) setting.vehicles.erase(setting.vehicles.begin());
+  setting = with_times_scaled(on_few_vehicles(std::move(setting)), kMostTime);
+  return settled_share_without_noise(std::move(setting), gains) == 0.0;
+}
+
 /// Returns why runs do not settle in one scenario and mode, and the changes with which they settle.
 /// To save time, it tries causes and changes of the gains only on the nominal vehicle and the first
 /// drawn vehicles.
 UnsettledRuns unsettled_in(const ObjectiveSetting& setting, const ConstraintContext& context,
-                           const Gains<double>& gains, bool is_varied, SettlingSearch& search) {
+                           const Gains<double>& gains, const UnmodelledVariation& open,
+                           SettlingSearch& search) {
   const YawMode mode = *setting.mode;
   UnsettledRuns unsettled{.scenario = {}, .mode = mode};
   const Status turns =
@@ -99,13 +109,16 @@ UnsettledRuns unsettled_in(const ObjectiveSetting& setting, const ConstraintCont
   }
   const ObjectiveSetting few = on_few_vehicles(setting);
   unsettled.vehicles = few.vehicles.size();
-  unsettled.friction = friction_effect(few, gains, mode);
-  unsettled.noise = noise_effect(few, gains);
+  unsettled.variation = variation_effect(few, gains, open);
+  if (!unsettled.variation) {
+    unsettled.friction = friction_effect(few, gains, mode);
+    unsettled.noise = noise_effect(few, gains);
+  }
   if (unsettled.noise) {
     replace_by_damping(few, gains, search, unsettled);
     return unsettled;
   }
-  if (few.vehicles.size() > 1 && !is_varied) {
+  if (few.vehicles.size() > 1 && !open.any()) {
     unsettled.error = unsettling_error(few, gains);
     if (!unsettled.error) unsettled.noise = noise_effect_on_identified(few, gains);
     if (unsettled.noise) return unsettled;
@@ -156,16 +169,36 @@ std::optional<UnsettlingError> unsettling_error(const ObjectiveSetting& setting,
   return largest;
 }
 
+std::optional<VariationEffect> variation_effect(const ObjectiveSetting& setting,
+                                                const Gains<double>& gains,
+                                                const UnmodelledVariation& open) {
+  const std::pair<const char*, UnmodelledVariation> parts[] = {
+      {"open/wheel_forces", {.mass_factors = {}, .wheel_forces = open.wheel_forces}},
+      {"open/mass_factors", {.mass_factors = open.mass_factors, .wheel_forces = {}}},
+      {"open", open}};
+  for (const auto& [key, part] : parts) {
+    if (!part.any()) continue;
+    ObjectiveSetting other = setting;
+    other.vehicles = without(part, setting.vehicles);
+    const double share = settled_share(other, gains);
+    if (share >= kSettledShare) return VariationEffect{key, share};
+  }
+  return std::nullopt;
+}
+
 std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveSetting& setting,
-                                          const ConstraintContext& context, bool is_varied) {
+                                          const ConstraintContext& context,
+                                          const TuneOptions& requested) {
   std::vector<UnsettledRuns> all;
-  SettlingSearch search(context);
+  SettlingSearch search(context, requested.bounds);
   const auto look_at = [&](const std::string& scenario, YawMode mode, double settled_share) {
     if (settled_share >= kSettledShare) return;
-    all.push_back(
-        unsettled_in(runs_in(setting, scenario, mode), context, tuning.gains, is_varied, search));
+    all.push_back(unsettled_in(runs_in(setting, scenario, mode), context, tuning.gains,
+                               requested.open, search));
     all.back().scenario = scenario;
     all.back().settled_share = settled_share;
+    all.back().is_never =
+        settled_share == 0.0 && never_settles(runs_in(setting, scenario, mode), tuning.gains);
   };
   if (tuning.robust && !tuning.robust->evaluated.empty()) {
     const RobustTuning& robust = *tuning.robust;

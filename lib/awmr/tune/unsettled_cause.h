@@ -31,11 +31,19 @@ std::optional<NoiseEffect> noise_effect_on_identified(const ObjectiveSetting& se
 std::optional<UnsettlingError> unsettling_error(const ObjectiveSetting& setting,
                                                 const Gains<double>& gains);
 
+/// Returns the part of the unmodelled variation `open` that keeps the runs from settling: at least
+/// kSettledShare of them settle without it. Tries the wheel forces, the mass factors, then both.
+/// Empty if there is none.
+std::optional<VariationEffect> variation_effect(const ObjectiveSetting& setting,
+                                                const Gains<double>& gains,
+                                                const UnmodelledVariation& open);
+
 /// Returns each scenario and mode in which fewer than kSettledShare of the runs settle with the
-/// tuned gains, with the causes and with changes that let the runs settle. `is_varied`: the drawn
-/// vehicles have unmodelled variation. Errors of the identified parameters are then not tried as a
-/// cause.
+/// tuned gains, with the causes and with changes that let the runs settle. `requested`: options as
+/// the user gave them. If they have unmodelled variation, errors of the identified parameters are
+/// not tried as a cause.
 std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveSetting& setting,
-                                          const ConstraintContext& context, bool is_varied);
+                                          const ConstraintContext& context,
+                                          const TuneOptions& requested);
 
 }  // namespace awmr
