@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -70,6 +71,13 @@ TEST(Log, InMotionHasNoRowBefore) {
   const DrivingLog log = log_with_speeds([](int i) { return 1.0 + 0.1 * i; }).set;
   EXPECT_EQ(log.rows(), 12U);
   EXPECT_EQ(log.force_left[0], 0.2);
+}
+
+TEST(Log, FastStartFromRestIsNoMotion) {
+  // Within five rows, the speed reaches 40 % and its median 20 % of the largest speed.
+  EXPECT_EQ(log_with_speeds([](int i) { return std::min(0.1 * i, 1.0); }).set.rows(), 13U);
+  // A difference of positions is 0 in the first row, but the vehicle moves.
+  EXPECT_EQ(log_with_speeds([](int i) { return i == 0 ? 0.0 : 1.0 + 0.01 * i; }).set.rows(), 12U);
 }
 
 std::vector<std::string> constant_columns(const Read<DrivingLog>& read) {

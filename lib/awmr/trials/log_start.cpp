@@ -16,6 +16,22 @@ void repeat_first(std::vector<T>& values) {
   values.insert(values.begin(), values.front());
 }
 
+constexpr std::size_t kReadings = 5;
+
+/// The first kReadings measurements of a channel; fewer if the log has fewer.
+std::vector<double> first_readings(const DrivingLog& log, LogChannel channel) {
+  std::vector<double> first;
+  for (std::size_t row = 0; log[channel] && row < log.rows() && first.size() < kReadings; ++row) {
+    if (is_measurement(log, channel, row)) first.push_back(log[channel]->value[row]);
+  }
+  return first;
+}
+
+/// Value, at the first of kReadings equally spaced readings, of the straight line fitted to them.
+double first_of_line(const std::vector<double>& y) {
+  return 0.6 * y[0] + 0.4 * y[1] + 0.2 * y[2] - 0.2 * y[4];
+}
+
 }  // namespace
 
 double largest_measured(const DrivingLog& log, LogChannel channel) {
@@ -30,16 +46,12 @@ double largest_measured(const DrivingLog& log, LogChannel channel) {
 
 bool begins_in_motion(const DrivingLog& log) {
   constexpr double kMoves = 0.05;
-  constexpr std::size_t kReadings = 5;
   return std::ranges::any_of(
       std::array{LogChannel::kSpeed, LogChannel::kYawRate}, [&](LogChannel channel) {
-        std::vector<double> first;
-        for (std::size_t row = 0; log[channel] && row < log.rows() && first.size() < kReadings;
-             ++row) {
-          if (is_measurement(log, channel, row)) first.push_back(log[channel]->value[row]);
-        }
-        return first.size() == kReadings &&
-               std::abs(median(first)) > kMoves * largest_measured(log, channel);
+        const std::vector<double> first = first_readings(log, channel);
+        if (first.size() < kReadings) return false;
+        const double least = kMoves * largest_measured(log, channel);
+        return std::abs(median(first)) > least && std::abs(first_of_line(first)) > least;
       });
 }
 

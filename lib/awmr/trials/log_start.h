@@ -9,8 +9,9 @@ namespace awmr {
 /// Largest magnitude of the measurements of a channel, SI; 0 without any.
 double largest_measured(const DrivingLog& log, LogChannel channel);
 
-/// True if the vehicle already moves at the first row. Criterion: the median of the first five
-/// readings of speed or yaw rate is above 5 % of the largest reading.
+/// True if the vehicle already moves at the first row. Criterion: of the first five readings of
+/// speed or yaw rate, the median and a straight line's value at the first row are both above 5 % of
+/// the largest reading. Without the line, a fast start from rest would count as motion.
 bool begins_in_motion(const DrivingLog& log);
 
 /// If the log begins at rest and its first row commands a force, adds a row with forces 0 and
