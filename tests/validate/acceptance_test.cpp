@@ -10,6 +10,8 @@
 #include "awmr/simulate/conditions.h"
 #include "awmr/simulate/plant_sampler.h"
 #include "awmr/simulate/simulate.h"
+#include "awmr/trials/log_start.h"
+#include "awmr/validate/drive_series.h"
 #include "support/uncertain_model.h"
 
 namespace awmr::testing {
@@ -112,6 +114,20 @@ TEST(Acceptance, BeginsWhereTheLogFirstCommandsAnything) {
       EXPECT_NEAR(one.noise, 0.02, 0.004);
     }
   }
+}
+
+TEST(Acceptance, BeginsAfterARowOfRestThatTheReaderAdded) {
+  DrivingLog log;
+  log.line = {2, 3};
+  log.t_s = {0.0, 0.1};
+  log.force_left = log.force_right = {0.2, 0.2};
+  log.steering_command_rad = {0.1, 0.1};
+  log[LogChannel::kSpeed] = Measured{.value = {0.0, 0.1}, .fresh = {true, true}, .fresh_count = 2};
+  add_row_of_rest(log);  // the added row repeats the steering command of the next row
+  ASSERT_EQ(log.rows(), 3U);
+  const auto first = first_row_of(log, {});
+  ASSERT_TRUE(first);
+  EXPECT_EQ(*first, 1U);
 }
 
 TEST(Acceptance, NamesAHeavierVehicle) {

@@ -125,6 +125,16 @@ DriveChannel measured_channel(const DrivingLog& log, LogChannel which, std::size
   return channel;
 }
 
+/// True if the log begins with a row of rest that add_row_of_rest() added (log_start.h): a row
+/// without forces and measurements. Its steering command is that of the next row.
+bool has_row_of_rest(const DrivingLog& log) {
+  const auto has_force = [&](std::size_t row) {
+    return log.force_left[row] != 0.0 || log.force_right[row] != 0.0;
+  };
+  return log.rows() > 1 && !has_force(0) && has_force(1) &&
+         std::ranges::none_of(kChannels, [&](LogChannel c) { return is_measurement(log, c, 0); });
+}
+
 }  // namespace
 
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s) {
@@ -133,7 +143,7 @@ Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<doub
                        fmt::format("the log begins at {:g} s, but {} is {:g} s; give a later time",
                                    log.t_s.front(), option_text("from"), *from_s));
   }
-  for (std::size_t row = 0; row < log.rows(); ++row) {
+  for (std::size_t row = has_row_of_rest(log) ? 1 : 0; row < log.rows(); ++row) {
     const bool commands = log.force_left[row] != 0.0 || log.force_right[row] != 0.0 ||
                           (log.steering_command_rad && (*log.steering_command_rad)[row] != 0.0);
     if (from_s ? log.t_s[row] >= *from_s : commands) return row;

@@ -46,8 +46,8 @@ struct DriveStart {
 };
 
 /// Index of the row at which the drive begins: the first row at or after from_s. If from_s is
-/// absent, it is the first row with a command other than 0. Errors (input): there is no such row,
-/// or from_s is before the log.
+/// absent, it is the first row with a command other than 0, but not a row that add_row_of_rest()
+/// added. Errors (input): there is no such row, or from_s is before the log.
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s);
 
 /// Sensor noise, sensor latency and motor lag of the vehicle. Noise that vehicle.json does not give
