@@ -18,16 +18,18 @@ template <template <class...> class List, class T>
 using LineLaws = List<LineOfSight<T>, PurePursuit<T>, IntegralLos<T>, Stanley<T>>;
 
 namespace detail {
+/// @cond  Doxygen reports the recursive base class as an error.
 template <int kPlace, class First, class... Rest>
 struct LawAt : LawAt<kPlace - 1, Rest...> {};
 template <class First, class... Rest>
 struct LawAt<0, First, Rest...> {
   typedef First Law;
 };
+/// @endcond
 }  // namespace detail
 
-/// Selects a guidance law by its place k in LineLaws, counted from 0. The law is the type
-/// LineLaws<LineLawAt<k>::Of, T>::Law.
+/// Selects a guidance law by its place k in LineLaws, counted from 0. The law is the member type
+/// Law of LineLaws<LineLawAt<k>::Of, T>.
 template <int kPlace>
 struct LineLawAt {
   template <class... Laws>
