@@ -29,8 +29,7 @@ KERNEL_OPTIONS = ["-fno-tree-slp-vectorize"]
 PARTS = ["core/error", "core/option_text", "core/random", "core/text", "identify/logs/sensitivity_kernel", "model/family",
          "model/model", "model/observer_rate", "model/parameters", "model/rest_speed", "model/vehicle", "simulate/batch", "simulate/disturbance",
          "simulate/metrics", "simulate/passage",
-         "simulate/physics", "simulate/scenario_guidance", "simulate/scenario", "simulate/sensing", "simulate/simulate",
-         "simulate/straight"]
+         "simulate/physics", "simulate/scenario_guidance", "simulate/scenario", "simulate/sensing", "simulate/simulate"]
 BOCHS = """\
 config_interface: textconfig
 display_library: rfb, options="timeout=0"
