@@ -27,9 +27,9 @@ KERNELS = {"avx2": ["-mavx2", "-mfma"], "avx512": ["-mavx512f", "-mfma"], "neon"
 KERNEL_OPTIONS = ["-fno-tree-slp-vectorize"]
 # Sources that batches need, without file readers and their libraries.
 PARTS = ["core/error", "core/option_text", "core/random", "core/text", "identify/logs/sensitivity_kernel", "model/family",
-         "model/model", "model/observer_rate", "model/parameters", "model/rest_speed", "model/vehicle", "simulate/batch", "simulate/disturbance",
-         "simulate/metrics", "simulate/passage",
-         "simulate/physics", "simulate/scenario_guidance", "simulate/scenario", "simulate/sensing", "simulate/simulate"]
+         "model/model", "model/observer_rate", "model/parameters", "model/rest_speed", "model/vehicle", "simulate/batch",
+         "simulate/conditions", "simulate/disturbance", "simulate/metrics", "simulate/passage", "simulate/physics",
+         "simulate/run_columns", "simulate/scenario", "simulate/scenario_guidance", "simulate/sensing", "simulate/simulate"]
 BOCHS = """\
 config_interface: textconfig
 display_library: rfb, options="timeout=0"
