@@ -166,8 +166,8 @@ std::string table_of(const Tuning& tuning) {
   text += gains_line("tuned", tuning.gains, tuning.objective);
   if (const ObserverGains<double>& observer = tuning.gains.observer; observer.is_on()) {
     text += fmt::format(
-        "  observer       bandwidth {:.4g} rad/s; compensates up to {:.4g} m (yaw moment) and "
-        "{:.4g} (surge force), both divided by F_max\n",
+        "  observer       bandwidth {:.4g} rad/s; compensates a yaw moment up to {:.4g} m and "
+        "a surge force up to {:.4g}, both divided by F_max\n",
         observer.bandwidth_radps, observer.yaw_max_m, observer.surge_max);
   }
   return text;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "awmr/trials/log_start.h"
 #include "identify/log_answers.h"
 
 namespace awmr::testing {
@@ -129,11 +130,14 @@ DrivingLog counted_log(std::size_t every, double count_m) {
   for (double& one : counted_m) one = count_m * std::floor(one / count_m);
   const double row_s = kFastStep_s * static_cast<double>(every);
   const Reading gyroscope = noisy(states, 0.005);
-  return thinned(fast, every, kSpeedAndYawRate, [&](LogChannel channel, std::size_t i) {
+  const auto reading = [&](LogChannel channel, std::size_t i) {
     if (channel == LogChannel::kYawRate) return gyroscope(channel, i);
     const std::size_t row = i / every;
     return row == 0 ? 0.0 : (counted_m[row] - counted_m[row - 1]) / row_s;
-  });
+  };
+  DrivingLog log = thinned(fast, every, kSpeedAndYawRate, reading);
+  add_row_of_rest(log);
+  return log;
 }
 
 TEST(FirmwareLog, SpeedOfEncoderCountsIsTheMeanSinceTheRowBefore) {

@@ -162,7 +162,14 @@ State<T> earlier_state(const LogSignals& signals, std::size_t begin,
     const SideForces<T> force{T(log.force_left[acting]), T(log.force_right[acting])};
     const T steering =
         log.steering_command_rad ? T((*log.steering_command_rad)[acting]) : state.steering_rad;
-    return moved(state, step.rates(state, force, steering), T(to_s - log.t_s[row]));
+    const T h_s = to_s - log.t_s[row];
+    const State<T> rates = step.rates(state, force, steering);
+    State<T> end = moved(state, rates, h_s);
+    const State<T> at_end = step.rates(end, force, steering);  // only those of the pose are used
+    end.x_m = state.x_m + 0.5 * h_s * (rates.x_m + at_end.x_m);
+    end.y_m = state.y_m + 0.5 * h_s * (rates.y_m + at_end.y_m);
+    end.psi_rad = state.psi_rad + 0.5 * h_s * (rates.psi_rad + at_end.psi_rad);
+    return end;
   }
   return advance_after_row(signals, row, T(log.t_s[row]), to_s, step.plant(), input_delay_s,
                            longest_step_s, state, nullptr, step);

@@ -337,7 +337,7 @@ void explain_missing_estimates(const std::string& file, const Vehicle& vehicle,
     const bool is_null =
         missing->id == ParameterId::kSteeringTimeConstant && !vehicle.has_steering();
     fault.message = fmt::format(
-        "this key with {} ({}) is missing. {}", missing->symbol, missing->meaning,
+        "{} ({}) is missing. {}", missing->symbol, missing->meaning,
         is_null
             ? "The vehicle has no steering, so give {\"value\": null, \"std_error\": null, "
               "\"ci95\": null, \"unit\": \"s\", \"source\": \"given\", \"method\": \"no "

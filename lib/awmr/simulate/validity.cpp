@@ -241,8 +241,9 @@ std::string remedy_for_turns(const TurnCommands& commands, double measured_degps
         "(shaping in the scenario, or {})",
         record, *commands.rate_max_degps, measured_degps, option);
   }
-  const std::string lower =
-      fmt::format("{:.2g}", *commands.rate_max_degps * measured_degps / fastest_degps);
+  const double in_proportion_degps = *commands.rate_max_degps * measured_degps / fastest_degps;
+  const double digit = std::pow(10.0, std::floor(std::log10(in_proportion_degps)) - 1.0);
+  const std::string lower = fmt::format("{:g}", digit * std::floor(in_proportion_degps / digit));
   return fmt::format(
       "The rate of heading commands is limited to {:.3g} deg/s, but the vehicle overshoots or "
       "slides. {}, or lower the limit in proportion, to about {} deg/s ({})",

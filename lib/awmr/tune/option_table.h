@@ -66,16 +66,18 @@ inline bool has_weight(const ObjectiveWeights& weights) {
 struct SearchedGain {
   const char* key;  ///< in /bounds of tune.json
   std::optional<Interval> GainBounds::*bounds;
-  double (*of)(const Gains<double>& gains);
+  double& (*at)(Gains<double>& gains);
+  double of(Gains<double> gains) const { return at(gains); }
 };
 /// In the order of a Point (problem.h), which SearchSpace::gains_at() repeats.
 inline constexpr SearchedGain kSearchedGains[] = {
-    {"lambda", &GainBounds::lambda, [](const Gains<double>& g) { return g.heading.lambda; }},
-    {"mu", &GainBounds::mu, [](const Gains<double>& g) { return g.heading.mu; }},
-    {"epsilon", &GainBounds::epsilon, [](const Gains<double>& g) { return g.heading.epsilon; }},
-    {"speed_mu", &GainBounds::speed_mu, [](const Gains<double>& g) { return g.speed.mu; }},
+    {"lambda", &GainBounds::lambda, [](Gains<double>& g) -> double& { return g.heading.lambda; }},
+    {"mu", &GainBounds::mu, [](Gains<double>& g) -> double& { return g.heading.mu; }},
+    {"epsilon", &GainBounds::epsilon,
+     [](Gains<double>& g) -> double& { return g.heading.epsilon; }},
+    {"speed_mu", &GainBounds::speed_mu, [](Gains<double>& g) -> double& { return g.speed.mu; }},
     {"speed_epsilon", &GainBounds::speed_epsilon,
-     [](const Gains<double>& g) { return g.speed.epsilon; }}};
+     [](Gains<double>& g) -> double& { return g.speed.epsilon; }}};
 
 /// True if each gain is within its bounds. Absent bounds permit every value.
 inline bool is_within(const Gains<double>& gains, const GainBounds& bounds) {
@@ -83,6 +85,15 @@ inline bool is_within(const Gains<double>& gains, const GainBounds& bounds) {
     const std::optional<Interval>& bound = bounds.*gain.bounds;
     return !bound || bound->contains(gain.of(gains));
   });
+}
+
+/// The gains, each moved to the nearest value within its bounds.
+inline Gains<double> clamped(Gains<double> gains, const GainBounds& bounds) {
+  for (const SearchedGain& gain : kSearchedGains) {
+    const std::optional<Interval>& bound = bounds.*gain.bounds;
+    if (bound) gain.at(gains) = std::clamp(gain.of(gains), bound->lo, bound->hi);
+  }
+  return gains;
 }
 
 /// Keys of /bounds in tune.json. The number range applies to both ends of each interval.

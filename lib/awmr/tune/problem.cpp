@@ -30,7 +30,8 @@ void bound_around(std::span<const Gains<double>> gains, GainBounds& bounds) {
   for (const SearchedGain& searched : kSearchedGains) {
     std::optional<Interval>& bound = bounds.*searched.bounds;
     if (bound) continue;
-    const auto [least, largest] = std::ranges::minmax(gains | std::views::transform(searched.of));
+    const auto [least, largest] = std::ranges::minmax(
+        gains | std::views::transform([&](const Gains<double>& one) { return searched.of(one); }));
     bound = Interval{least / kBoundFactor, largest * kBoundFactor};
   }
 }

@@ -176,14 +176,9 @@ Status check_settled(const Tuning& tuning, const TuneOptions& requested) {
   for (const Tuning& one : tuning.own) append(never, never_settling(one));
   if (never.empty()) return {};
   Error error{.kind = ErrorKind::kRefused, .faults = {}};
-  const UnsettledRuns& first = never.front();
-  const std::string pointer = first.variation         ? "/" + first.variation->key
-                              : first.changes.empty() ? ""
-                                                      : first.changes.front().pointer;
-  const bool has_place = !requested.file.empty() && !pointer.empty();
-  const std::string place = has_place ? requested.file + ":" + pointer : "";
-  for (const std::string& text : unsettled_texts(never)) {
-    error.faults.push_back({ErrorCode::kNoGains, place,
+  for (const auto& [text, pointer] : unsettled_texts(never)) {
+    const bool has_place = !requested.file.empty() && !pointer.empty();
+    error.faults.push_back({ErrorCode::kNoGains, has_place ? requested.file + ":" + pointer : "",
                             fmt::format("{}. Without noise and in {:g} times the duration, no run "
                                         "settles either. To write these gains nevertheless: {}",
                                         text, kMostTime, option_text("allow_unsettled"))});

@@ -172,7 +172,7 @@ struct ModesAlone {
 ///   - the tuned gains, made faster by the square root and the fourth root of a ratio: lambda by
 ///     pole placement for this mode, divided by lambda by pole placement for all modes. These gains
 ///     need not meet the constraints, because the search for one mode ensures that.
-/// Gains outside of the bounds that the user gave are not tried.
+/// Gains outside of the bounds that the user gave are moved to the bounds.
 /// With an observer, all modes have the friction width of the steering, which is wide if the
 /// compass is noisy. With a width of its own, a mode corrects dry friction without waiting for the
 /// observer, so gains for each mode alone can then be better in any case.
@@ -183,29 +183,29 @@ ModesAlone modes_alone(const Searched& s) {
   const Gains<double>& tuned = s.settled.gains;
   found.is_any_better = tuned.observer.is_on() &&
                         tuned.heading.friction_width_radps > feed_forward_rest_speed<double>();
-  const Gains<double> common_poles =
-      tuned.observer.is_on() ? starting_poles(s.context, tuned.observer).front() : s.poles;
+  const GainBounds& bounds = s.requested.bounds;
+  const Gains<double> common_poles = clamped(
+      tuned.observer.is_on() ? starting_poles(s.context, tuned.observer).front() : s.poles, bounds);
   for (const YawMode mode : s.setting.modes()) {
     ConstraintContext context = s.context;
     context.mode = mode;
     const Objective objective(on_few_vehicles(runs_in(s.setting, {}, mode)),
                               s.baseline.gains.common());
     const Evaluation of_tuned = objective(tuned);
-    const Gains<double> poles = starting_poles(context, tuned.observer).front();
+    const Gains<double> poles = clamped(starting_poles(context, tuned.observer).front(), bounds);
     const Evaluation of_poles = objective(poles);
     const double tuned_s = of_tuned.trade_off.settling_time_s;
     const double poles_s = of_poles.trade_off.settling_time_s;
-    if (is_within(poles, s.requested.bounds) && meets_constraints(poles, context) &&
-        of_poles.valid && of_poles.objective < of_tuned.objective &&
-        poles_s < kMuchFaster * tuned_s) {
+    if (meets_constraints(poles, context) && of_poles.valid &&
+        of_poles.objective < of_tuned.objective && poles_s < kMuchFaster * tuned_s) {
       found.faster.push_back(
           {.mode = mode, .settling_time_s = poles_s, .tuned_settling_time_s = tuned_s});
     }
     const double ratio = poles.heading.lambda / common_poles.heading.lambda;
     for (const double factor : {std::sqrt(ratio), std::sqrt(std::sqrt(ratio))}) {
-      const Gains<double> faster = slowed(tuned, factor);
-      const bool is_better = ratio > 1.0 && is_within(faster, s.requested.bounds) &&
-                             objective(faster).objective < kBetter * of_tuned.objective;
+      const Gains<double> faster = clamped(slowed(tuned, factor), bounds);
+      const bool is_better =
+          ratio > 1.0 && objective(faster).objective < kBetter * of_tuned.objective;
       found.is_any_better = found.is_any_better || is_better;
     }
   }

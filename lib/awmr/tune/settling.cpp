@@ -132,9 +132,9 @@ const std::vector<Gains<double>>& SettlingSearch::poles(const std::string& chang
                                                         const ObserverGains<double>& observer) {
   const auto [known, is_new] = poles_.try_emplace({change, observer.bandwidth_radps});
   if (is_new) {
-    for (const Gains<double>& gains : starting_poles(changed, observer)) {
-      const bool is_permitted = change == kWiderBounds || is_within(gains, bounds_);
-      if (is_permitted && meets_constraints(gains, changed)) known->second.push_back(gains);
+    for (const Gains<double>& poles : starting_poles(changed, observer)) {
+      const Gains<double> gains = change == kWiderBounds ? poles : clamped(poles, bounds_);
+      if (meets_constraints(gains, changed)) known->second.push_back(gains);
     }
   }
   return known->second;

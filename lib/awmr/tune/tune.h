@@ -590,9 +590,9 @@ Result<Scenario> held_out_scenario(const Model& model, std::optional<YawMode> mo
 ///     not soft;
 ///   - in every mode, the largest yaw moment is below the yaw resistance at 1 deg/s (turning.h);
 ///   - runs diverge with all gains;
-///   - no run settles with the tuned gains, not even without sensor noise, or in some mode that can
-///     turn the vehicle, they never settle (UnsettledRuns::is_never). TuneOptions::allows_unsettled
-///     permits such gains.
+///   - no run settles with the tuned gains, even without sensor noise; or a mode that can turn the
+///     vehicle never settles (UnsettledRuns::is_never). TuneOptions::allows_unsettled permits such
+///     gains.
 ///
 /// Errors (input): the model lacks a parameter; an option is invalid; the latency exceeds 20
 /// samples; no wheel force is left for an observer; runs with the baseline break off; the

@@ -121,9 +121,10 @@ void note_unsettled_baseline(const Tuning& tuning, std::vector<Finding>& finding
   if (where.empty()) return;
   findings.push_back(
       {"", 0, Severity::kNote, "baseline-unsettled",
-       fmt::format("with the baseline gains ({}), no run settles ({}). The objective {:.4g} is the "
-                   "ratio to these runs, so it does not show how good the tuned gains are. For a "
-                   "ratio to gains that settle: {}",
+       fmt::format("with the baseline gains ({}), no run settles ({}). The objective ({:.4g}) is "
+                   "relative to the baseline, so it does not show how good the tuned gains are. "
+                   "Compare the settling times in /robust, or give gains that settle as the "
+                   "baseline: {}",
                    tuning.baseline.source, where, tuning.objective,
                    option_text(settles_with_paper ? "baseline paper" : "baseline FILE"))});
 }
@@ -180,7 +181,7 @@ std::vector<Finding> search_findings(const Model& model, const TuneOptions& opti
       if (goal.gains == kRobustGains) note_goal(goal, findings);
     }
   }
-  for (const std::string& text : unsettled_texts(tuning.unsettled)) {
+  for (const auto& [text, pointer] : unsettled_texts(tuning.unsettled)) {
     findings.push_back({"", 0, Severity::kWarning, "unsettled", text});
   }
   note_unsettled_baseline(tuning, findings);

@@ -65,38 +65,51 @@ std::string advice_for(const UnsettledRuns& found) {
   if (const auto& error = found.error) {
     advice += fmt::format(
         ". With the identified values of all parameters, {:.0f} % settle, so errors of the model "
-        "keep runs from settling. The largest effect has the error of {}: with its identified "
-        "value alone, {:.0f} % settle. Record {}, and identify again",
+        "keep runs from settling. The error of {} has the largest effect: with its "
+        "identified value alone, {:.0f} % settle. Record {}, and identify again",
         100.0 * error->share_of_identified, error->quantity, 100.0 * error->settled_share,
         error->trial);
     if (found.changes.empty()) return advice;
   }
-  const std::string runs =
-      fmt::format("{:g} % of the runs of {} vehicles", 100.0 * kSettledShare, found.vehicles);
+  const std::string runs = fmt::format("{:g} % of the runs of {} vehicle{}", 100.0 * kSettledShare,
+                                       found.vehicles, found.vehicles == 1 ? "" : "s");
   return advice + ". " +
          (found.changes.empty() ? no_change_settles(runs) : describe(found.changes, runs));
 }
 
+/// Place in tune.json that the advice is about; empty if it is about other files.
+std::string pointer_of(const UnsettledRuns& found) {
+  if (found.variation) return "/" + found.variation->key;
+  return found.changes.empty() ? "" : found.changes.front().pointer;
+}
+
 }  // namespace
 
-std::vector<std::string> unsettled_texts(std::span<const UnsettledRuns> unsettled) {
-  std::vector<std::pair<std::string, std::string>> all;  // runs and advice
+std::vector<UnsettledText> unsettled_texts(std::span<const UnsettledRuns> unsettled) {
+  struct Group {
+    std::string runs;
+    std::string advice;
+    std::string pointer;
+  };
+  std::vector<Group> groups;
   for (const UnsettledRuns& one : unsettled) {
     const std::string runs =
         fmt::format("{:.0f} % ({}{}{})", 100.0 * one.settled_share, one.scenario,
                     one.scenario.empty() ? "" : ", ", name_of(one.mode));
     const std::string advice = advice_for(one);
-    const auto known = std::ranges::find(all, advice, &std::pair<std::string, std::string>::second);
-    if (known == all.end()) {
-      all.emplace_back(runs, advice);
+    const auto known = std::ranges::find(groups, advice, &Group::advice);
+    if (known == groups.end()) {
+      groups.push_back({runs, advice, pointer_of(one)});
     } else {
-      known->first += ", " + runs;
+      known->runs += ", " + runs;
     }
   }
-  std::vector<std::string> texts;
-  for (const auto& [runs, advice] : all) {
-    texts.push_back(fmt::format(
-        "of the runs with the tuned gains, {} settle after every heading step{}", runs, advice));
+  std::vector<UnsettledText> texts;
+  for (const auto& [runs, advice, pointer] : groups) {
+    texts.push_back(
+        {fmt::format("of the runs with the tuned gains, {} settle after every heading step{}", runs,
+                     advice),
+         pointer});
   }
   return texts;
 }

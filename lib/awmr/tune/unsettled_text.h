@@ -9,9 +9,14 @@
 
 namespace awmr {
 
+struct UnsettledText {
+  std::string text;
+  std::string pointer;  ///< place in tune.json that the advice is about; may be empty
+};
+
 /// Returns a message for each advice, with all scenarios and modes that get this advice, and the
 /// shares of their runs that settle: "of the runs with the tuned gains, 40 % (SCENARIO, MODE), 0 %
 /// (...) settle after every heading step. ADVICE".
-std::vector<std::string> unsettled_texts(std::span<const UnsettledRuns> unsettled);
+std::vector<UnsettledText> unsettled_texts(std::span<const UnsettledRuns> unsettled);
 
 }  // namespace awmr

@@ -138,12 +138,13 @@ bool has_row_of_rest(const DrivingLog& log) {
 }  // namespace
 
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s) {
-  if (from_s && *from_s < log.t_s.front()) {
+  const std::size_t first = has_row_of_rest(log) ? 1 : 0;
+  if (from_s && *from_s < log.t_s[first]) {
     return input_error(ErrorCode::kTooFewData, log.file,
                        fmt::format("the log begins at {:g} s, but {} is {:g} s; give a later time",
-                                   log.t_s.front(), option_text("from"), *from_s));
+                                   log.t_s[first], option_text("from"), *from_s));
   }
-  for (std::size_t row = has_row_of_rest(log) ? 1 : 0; row < log.rows(); ++row) {
+  for (std::size_t row = first; row < log.rows(); ++row) {
     const bool commands = log.force_left[row] != 0.0 || log.force_right[row] != 0.0 ||
                           (log.steering_command_rad && (*log.steering_command_rad)[row] != 0.0);
     if (from_s ? log.t_s[row] >= *from_s : commands) return row;

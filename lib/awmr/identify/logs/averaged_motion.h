@@ -1,5 +1,5 @@
-/// Speed and yaw rate that a program computes as distance or angle per time, for example from the
-/// counts of encoders. Private to identify/.
+/// Readings that are means: a program divides a distance or an angle, for example counts of
+/// encoders, by a time. Private to identify/.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ double averaging_time_s(const TermColumn& averaging);
 ///     u_mean = (a/2)/sin(a/2) (((x' - x) cos p + (y' - y) sin p)/L - (v r' - v' r) L/12)
 ///
 /// The first factor is the ratio of arc and chord; its series 1 + (a/2)^2/6 + 7 (a/2)^4/360 is used,
-/// which is accurate within 0.2 % for |a| < 2 rad. The last term is the mean of v times the angle
+/// which is accurate within 0.2 % for |a| < 2 rad. (L is at most 0.2 s.) The last term is the mean of v times the angle
 /// to p, if v and r change at constant rates.
 LinearMotion averaged_motion(const LinearMotion& begin, LinearMotion end,
                              const TermColumn& averaging, std::size_t columns);

@@ -223,17 +223,21 @@ LogFitOptions with_averaging(LogFitOptions options, const std::vector<DrivingLog
   return options;
 }
 
-/// AIC of `between`, a fit with unknown times of the changes, compared with that of fits with the
-/// same terms and changes at the rows: by how much it is lower than the lowest of these. One of them
-/// has averaging too, because the speed of an encoder is the mean since the row before, so it
-/// responds to a change at a row as if the change were between the rows.
+/// Returns the lowest AIC of fits with changes at the rows, minus the AIC of `between`, a fit with
+/// unknown times of the changes and the same terms. One of the fits has averaging too, because the
+/// speed of an encoder is the mean since the row before, so it responds to a change at a row as if
+/// the change were between the rows. Returns -infinity if a fit fails.
 double lead_over_rows(const FamilyFit& between, const std::vector<DrivingLog>& logs,
                       const LogFitOptions& power_law) {
   const LogFitOptions options = from_optimum(with_back_emf_as_in(between, power_law), between);
   double lead = std::numeric_limits<double>::infinity();
-  for (const LogFitOptions& one : {options, with_averaging(options, logs)}) {
-    const FamilyFit at_rows = fit_family(logs, one, between.surge, between.yaw);
-    lead = std::min(lead, aic_lead(between.fit, at_rows.fit));
+  std::vector<LogFitOptions> at_rows{options, with_averaging(options, logs)};
+  if (at_rows[1].terms.size() == options.terms.size()) at_rows.pop_back();
+  for (const LogFitOptions& one : at_rows) {
+    const LogFit fit = fit_family(logs, one, between.surge, between.yaw).fit;
+    const double lead_of_one = aic_lead(between.fit, fit);
+    if (!std::isfinite(lead_of_one)) return -std::numeric_limits<double>::infinity();
+    lead = std::min(lead, lead_of_one);
   }
   return lead;
 }

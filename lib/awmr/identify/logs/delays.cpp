@@ -215,6 +215,11 @@ class TermTrials {
     if (found_s > 0.0) lowest_.consider(trial({{lag, found_s}}));
   }
 
+  /// True if a mean with this delay, half of the averaging time, is plausible (may_be_mean()).
+  bool is_often_averaged(LogChannel channel, double delay_s) const {
+    return is_often_counted(channel) && may_be_mean(settled_.problem.model, delay_s);
+  }
+
   /// Tries a low-pass filter in place of the delay of each channel in filters_, with the same delay
   /// as the initial guess. Each channel gets four trials: filters of first and of second order,
   /// both continuous or with a step per row. Before them, averaging over twice the delay is tried:
@@ -224,7 +229,7 @@ class TermTrials {
     // more common and therefore preferred.
     if (settled_.problem.model.noise.size() <= 1) return;
     for (const auto& [channel, lag_s] : filters_) {
-      if (is_often_counted(channel)) {
+      if (is_often_averaged(channel, lag_s)) {
         const FreeQuantity averaging = free_term(Kind::kAveraging, channel);
         lowest_.consider(trial({{averaging, 2.0 * lag_s}}));
       }
@@ -255,7 +260,8 @@ class TermTrials {
       append(filters_at_rows, second_order_lag_of(channel, delay_s_, true));
       averaging.push_back({free_term(Kind::kAveraging, channel), 2.0 * delay_s_});
     }
-    for (const auto& both : {averaging, filters, filters_at_rows}) {
+    if (may_be_mean(model, delay_s_)) lowest_.consider(trial(averaging), kLikelierFilter);
+    for (const auto& both : {filters, filters_at_rows}) {
       lowest_.consider(trial(both), kLikelierFilter);
     }
   }
@@ -287,9 +293,10 @@ class TermTrials {
   void consider_averaging() {
     for (const CandidateTerm& term : terms_) {
       const LogChannel channel = term.quantity.channel;
-      if (term.quantity.kind != Kind::kSmoothing || !is_often_counted(channel)) continue;
+      if (term.quantity.kind != Kind::kSmoothing) continue;
       if (term.significance < kComparable * terms_.front().significance) return;
       const double averaging_s = std::sqrt(12.0 * term.value);
+      if (!is_often_averaged(channel, 0.5 * averaging_s)) continue;
       const std::vector<FreeQuantity>& quantities = start_.problem.model.quantities;
       NoiseIteration from = start_;
       if (const auto i = place_of(quantities, free_term(Kind::kSensorDelay, channel).name())) {
@@ -338,12 +345,13 @@ std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled) {
 }
 
 /// Returns a fit in which averaging replaces the filters of speed and yaw rate, with one more term
-/// if that is necessary to lower AIC. Reason: the search may add a filter before it knows the delays
-/// that remain beside the averaging. Empty if AIC does not decrease.
+/// if that is necessary to lower AIC. Reason: the search may add a filter before it has found the
+/// other delays of the fit, with which averaging alone suffices. Empty if AIC does not decrease.
 std::optional<NoiseIteration> with_averaging(const NoiseIteration& settled) {
   std::optional<NoiseIteration> fit = with_averaging_for_filters(settled);
-  if (fit && akaike_of(*fit) >= akaike_of(settled)) fit = with_one_more(*fit);
-  if (fit && akaike_of(*fit) >= akaike_of(settled)) return std::nullopt;
+  const auto is_likelier = [&] { return akaike_of(*fit) < akaike_of(settled); };
+  if (fit && !is_likelier()) fit = with_one_more(*fit);
+  if (fit && !is_likelier()) return std::nullopt;
   return fit;
 }
 

@@ -180,7 +180,10 @@ LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
   if (then_s > row_s) {
     advance_after_row(signals, row, row_s, then_s, path, stepper, longest_step_s, motion);
   }
-  DelayedCommand command = command_at(signals, std::max(row_s, then_s), path);
+  // Before the first row of a part inside the log, the command of the row before acted.
+  const bool is_before = then_s < row_s && row > 0 && !path.has_mean_forces();
+  const double acting_s = is_before ? row_s - 4.0 * kSameTime_s : std::max(row_s, then_s);
+  DelayedCommand command = command_at(signals, acting_s, path);
   if (!log.steering_command_rad) command.command.steering_rad = motion.state.steering_rad;
   const State<double> rates = then_s < row_s ? extrapolate(command, then_s - row_s, stepper, motion)
                                              : stepper.rates(command, motion);

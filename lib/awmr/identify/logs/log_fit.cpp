@@ -113,7 +113,8 @@ double scale_to(double std, const std::vector<double>& draws) {
 /// Computes 95 % intervals by a block bootstrap. Each resample draws blocks with replacement and
 /// makes one Gauss-Newton step from the solution. The steps are scaled to the standard errors of
 /// the covariance, so the bootstrap determines only the shape of the intervals, not their width.
-/// The ends are the 2.5 % and 97.5 % percentiles of each quantity's value. Empty for 0 resamples.
+/// The ends are the 2.5 % and 97.5 % percentiles of each quantity's value. The changes by a few
+/// resamples may all have the same sign; the interval then ends at the value. Empty for 0 resamples.
 std::vector<Interval> block_bootstrap(const BootstrapInput& input, int resamples,
                                       std::uint64_t seed) {
   if (resamples <= 0) return {};
@@ -132,8 +133,9 @@ std::vector<Interval> block_bootstrap(const BootstrapInput& input, int resamples
     const double x = input.coordinates[i];
     const double std = std::sqrt(input.covariance(eigen_index(i), eigen_index(i)));
     const double scale = scale_to(std, draws[i]);
-    intervals.push_back({q.value(x + scale * quantile_of_sorted(draws[i], 0.025)),
-                         q.value(x + scale * quantile_of_sorted(draws[i], 0.975))});
+    const double lo = std::min(0.0, quantile_of_sorted(draws[i], 0.025));
+    const double hi = std::max(0.0, quantile_of_sorted(draws[i], 0.975));
+    intervals.push_back({q.value(x + scale * lo), q.value(x + scale * hi)});
   }
   return intervals;
 }

@@ -88,8 +88,8 @@ std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
 }
 
 /// Limit of the work of all searches (Effort): about half a minute on a processor of 2023, more for
-/// long logs, and less for short ones, with which searches that do not converge make no more than
-/// about 6000 evaluations. A log that the model describes well needs a tenth of this.
+/// long logs. For short logs, the limit is about 6000 evaluations, so that a search that does not
+/// converge stops early. A log that the model describes well needs a tenth of this.
 std::int64_t effort_limit(const std::vector<DrivingLog>& logs) {
   constexpr double kUsualEffort = 6e8;
   constexpr double kPerSecond = 1e6;  // additional work per second of log
@@ -97,13 +97,14 @@ std::int64_t effort_limit(const std::vector<DrivingLog>& logs) {
   constexpr double kUsualColumns = 20.0;
   constexpr double kStep_s = 0.01;
   double duration_s = 0.0;
-  double samples = 0.0;
+  double readings = 0.0;
   for (const DrivingLog& log : logs) {
     duration_s += log.t_s.back() - log.t_s.front();
-    for (const LogChannel channel : kChannels)
-      samples += log[channel] ? log[channel]->fresh_count : 0;
+    const auto channels = std::ranges::count_if(
+        kChannels, [&](LogChannel channel) { return log[channel].has_value(); });
+    readings += static_cast<double>(log.rows()) * static_cast<double>(channels);
   }
-  const double of_evaluation = kUsualColumns * (samples + duration_s / kStep_s);
+  const double of_evaluation = kUsualColumns * (readings + duration_s / kStep_s);
   return std::llround(std::min(kUsualEffort, kEvaluations * of_evaluation) +
                       kPerSecond * duration_s);
 }

@@ -77,7 +77,7 @@ constexpr KindInfo kKinds[] = {
     {"", {}},
     {kBiasPrefix, {-1e6, 1e6}, 1.0},
     {kSensorDelayPrefix, {0.0, 1.0}},
-    {kAveragingPrefix, {0.0, 0.5}},
+    {kAveragingPrefix, {0.0, 0.2}},
     {kSensorLagPrefix, {0.0, 1.0}},
     {kLagDampingPrefix, {0.2, 2.0}, 0.5},
     {kSmoothingPrefix, {0.0, 0.1}, 0.01},

@@ -164,9 +164,18 @@ std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& s
   return fit;
 }
 
+bool may_be_mean(const LogModel& model, double delay_s) {
+  constexpr double kShare = 0.25;
+  return delay_s > kShare * model.row_spacing_s;
+}
+
 std::optional<NoiseIteration> with_averaging_for_filters(const NoiseIteration& settled) {
+  const LogModel& model = settled.problem.model;
   std::vector<FoundFilter> filters = filters_of(settled);
-  std::erase_if(filters, [](const FoundFilter& one) { return !is_often_counted(one.channel); });
+  std::erase_if(filters, [&](const FoundFilter& one) {
+    return !is_often_counted(one.channel) || !may_be_mean(model, one.delay_s) ||
+           has_kind(model.quantities, Kind::kAveraging, one.channel);
+  });
   if (filters.empty()) return std::nullopt;
   std::vector<FreeTerm> averaging;
   for (const FoundFilter& one : filters) {

@@ -63,8 +63,14 @@ bool has_motor_lag(const LogModel& model);
 /// already has a motor lag.
 std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled);
 
+/// True if the delay of a reading can be that of a mean, half of the averaging time: a program
+/// averages over a row of the log or more, so the delay is at least about half of a row spacing.
+/// Criterion: a quarter.
+bool may_be_mean(const LogModel& model, double delay_s);
+
 /// Replaces the low-pass filters of speed and yaw rate by means over twice the delay of the filters
-/// (FreeQuantity::Kind::kAveraging). Empty if there is no such filter. The AIC may be higher.
+/// (FreeQuantity::Kind::kAveraging). Empty if no channel has a filter whose
+/// delay can be that of a mean (may_be_mean()) and no averaging. The AIC may be higher.
 std::optional<NoiseIteration> with_averaging_for_filters(const NoiseIteration& settled);
 
 /// Adds a motor lag to a fit with a positive delay of the commands. Empty if there is no such
