@@ -25,13 +25,24 @@ struct FoundTerm {
   double error;
 };
 
-/// The terms of one kind that the fit identifies and that differ significantly from 0.
+/// Largest slip ratio at the largest force that is plausible if only the slipping wheels show it.
+constexpr double kLargestSlip = 0.25;
+
+/// True if the slip is larger than kLargestSlip, and no position shows that the wheels slip.
+bool is_implausible(const FoundTerm& slip, const LogFit& fit) {
+  return slip.quantity.kind == Kind::kWheelSlip && slip.quantity.is_ratio &&
+         slip.value > kLargestSlip && !fit.noise.contains(LogChannel::kX);
+}
+
+/// The terms of one kind that the fit identifies and that differ significantly from 0, and
+/// implausible slip in any case.
 std::vector<FoundTerm> found_terms(const LogFit& fit, Kind kind) {
   std::vector<FoundTerm> found;
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    if (fit.quantities[i].kind != kind || !fit.refusal_reason[i].empty()) continue;
-    if (!fit.is_significant(i)) continue;
-    found.push_back({fit.quantities[i], fit.coordinates[i], fit.error_of(i)});
+    if (fit.quantities[i].kind != kind) continue;
+    const FoundTerm term{fit.quantities[i], fit.coordinates[i], fit.error_of(i)};
+    const bool is_identified = fit.refusal_reason[i].empty() && fit.is_significant(i);
+    if (is_identified || is_implausible(term, fit)) found.push_back(term);
   }
   return found;
 }
@@ -206,14 +217,6 @@ std::string sensor_scale_text(const FoundTerm& scale, const LogFit&) {
       scale.value > 0.0 ? "much" : "little",
       scale.quantity.channel == LogChannel::kSpeed ? "the positions" : "heading or positions",
       1.0 + scale.value);
-}
-
-/// Largest slip ratio at the largest force that is plausible if only the slipping wheels show it.
-constexpr double kLargestSlip = 0.25;
-
-/// True if the slip is larger than kLargestSlip, and no position shows that the wheels slip.
-bool is_implausible(const FoundTerm& slip, const LogFit& fit) {
-  return slip.quantity.is_ratio && slip.value > kLargestSlip && !fit.noise.contains(LogChannel::kX);
 }
 
 std::string slip_text(const FoundTerm& slip, const LogFit& fit) {
