@@ -114,9 +114,9 @@ TEST(FirmwareLog, SpeedAndYawRateOfATrackingFilterAreAllowedFor) {
   expect_vehicle_of_log(result);
 }
 
-/// Log with rows every `every` fast rows, at which the commands change. The speed is the distance in
-/// whole counts of `count_m` since the row before, divided by the time; the yaw rate is that of a
-/// gyroscope.
+/// Log with rows every `every` fast rows, at which the commands change. The speed is the distance
+/// in whole counts of `count_m` since the row before, divided by the time; the yaw rate is that of
+/// a gyroscope.
 DrivingLog counted_log(std::size_t every, double count_m) {
   DrivingLog fast = fast_drive(20.0);
   for (std::size_t i = 0; i < fast.rows(); ++i) {

@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// A mode uses its own gains if its objective with them is at most this share of that with the gains
-/// for all modes, or if they settle much faster (kMuchFaster).
+/// A mode uses its own gains if its objective with them is at most this share of that with the
+/// gains for all modes, or if they settle much faster (kMuchFaster).
 constexpr double kWorthOwnGains = 0.95;
 
 template <class Results>

@@ -114,7 +114,8 @@ double scale_to(double std, const std::vector<double>& draws) {
 /// makes one Gauss-Newton step from the solution. The steps are scaled to the standard errors of
 /// the covariance, so the bootstrap determines only the shape of the intervals, not their width.
 /// The ends are the 2.5 % and 97.5 % percentiles of each quantity's value. The changes by a few
-/// resamples may all have the same sign; the interval then ends at the value. Empty for 0 resamples.
+/// resamples may all have the same sign; the interval then ends at the value. Empty for 0
+/// resamples.
 std::vector<Interval> block_bootstrap(const BootstrapInput& input, int resamples,
                                       std::uint64_t seed) {
   if (resamples <= 0) return {};
