@@ -445,6 +445,22 @@ TEST_P(SlippingWheels, AreFoundInTheirReadings) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
 }
 
+TEST(LateLog, SlipWithoutAPositionWithdrawsWhatDependsOnIt) {
+  for (const bool of_yaw : {false, true}) {
+    DrivingLog log = with_slip(precise_drive(kTruths[1]), 0.16, of_yaw);
+    for (const LogChannel absent : {LogChannel::kX, LogChannel::kY}) log[absent].reset();
+    TrialData data;
+    data.logs = {std::move(log)};
+    const auto result = identify(robot(), data, power_law(), {});
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(has_finding(*result, "wheel-slip", "without a position"));
+    for (const ParameterId id : {ParameterId::kMassNorm, ParameterId::kSurgeBeta}) {
+      EXPECT_TRUE(result->model[id].value && !result->model[id].std_error) << info(id).name;
+    }
+    EXPECT_EQ(result->model[ParameterId::kYawAlpha].std_error.has_value(), !of_yaw);
+  }
+}
+
 TEST(LateLog, WithdrawsTheMassIfSlipResemblesLateCommands) {
   // Wheel slip changes the measured speed as if it were read early. Late commands together with a
   // late yaw rate have the same effect, so the log does not show which of the two is the cause.

@@ -115,10 +115,10 @@ Status check_settled(const Tuning& tuning, const TuneOptions& requested);
 /// Gains settle much faster than others if their mean settling time is at most this share.
 inline constexpr double kMuchFaster = 0.75;
 
-/// Searches gains for each mode alone. A mode keeps the gains of `common` in three cases: its search
-/// fails; its objective falls by less than 5 %, and either rises or the own gains do not settle much
-/// faster (kMuchFaster); or fewer of its runs settle, unless 95 % settle. Both are compared in the
-/// setting of the search for the mode, whose scenarios can be shorter
+/// Searches gains for each mode alone. A mode keeps the gains of `common` in three cases: its
+/// search fails; its objective falls by less than 5 %, and either rises or the own gains do not
+/// settle much faster (kMuchFaster); or fewer of its runs settle, unless 95 % settle. Both are
+/// compared in the setting of the search for the mode, whose scenarios can be shorter
 /// (TuneOptions::has_default_scenarios). Returns one Tuning with all modes: the gains of combined
 /// mode in Tuning::gains, those of the other modes in Tuning::own, and a certificate for all modes.
 /// Returns `common` if all modes keep its gains.

@@ -21,8 +21,11 @@ namespace awmr {
 /// (kMaxSquaredInnovation). These few rows are those in which a command changes: whether a
 /// reading in such a row already shows the new command depends on the program that writes the log.
 /// The intervals of the parameters that differ between the fits by more than one standard error are
-/// then withdrawn, and the finding `wheel-slip` names both explanations. Empty if nothing was
-/// withdrawn.
+/// then withdrawn, and the finding `wheel-slip` names both explanations.
+///
+/// Without a position, a sensor of the speed whose delay grows at low speed (speed from the time
+/// between two encoder ticks) looks like slip. The intervals that depend on the slip are then
+/// withdrawn, too (withdraw_of_slip()). Empty if nothing was withdrawn.
 std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
 
 /// Returns one finding `coloured-residuals` for every channel whose whitened residuals are still

@@ -107,6 +107,21 @@ void withdraw_intervals(EstimatorReport& report, std::string_view prefix) {
   }
 }
 
+std::vector<std::string> withdraw_of_slip(bool is_of_yaw, EstimatorReport& report) {
+  const auto is_of_turns = [](const std::string& name) {
+    return name.starts_with("yaw.") || name.starts_with("sway.") || name.starts_with("steering.") ||
+           name == info(ParameterId::kInertiaNorm).name;
+  };
+  std::vector<std::string> names;
+  for (EstimatorParameter& mine : report.parameters) {
+    if (!parameter_by_name(mine.name) || !mine.std_error) continue;
+    if (!is_of_yaw && is_of_turns(mine.name)) continue;
+    names.push_back(mine.name);
+    withdraw(mine);
+  }
+  return names;
+}
+
 std::vector<std::string> withdraw_different(const EstimatorReport& other, EstimatorReport& report) {
   std::vector<std::string> names;
   for (EstimatorParameter& mine : report.parameters) {

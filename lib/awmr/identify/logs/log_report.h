@@ -31,6 +31,11 @@ inline void withdraw(EstimatorParameter& parameter) {
 /// Does so for all parameters whose names begin with `prefix`.
 void withdraw_intervals(EstimatorReport& report, std::string_view prefix = "");
 
+/// Withdraws the intervals of the model parameters in `report` that depend on the slip of wheels:
+/// of all if the yaw rate has slip (`is_of_yaw`), else of all but those of turning (yaw resistance,
+/// I'z, sway, steering). Returns the names of these parameters.
+std::vector<std::string> withdraw_of_slip(bool is_of_yaw, EstimatorReport& report);
+
 /// Withdraws the intervals of the model parameters in `report` that differ from those in `other` by
 /// more than one standard error. Returns the names of these parameters.
 std::vector<std::string> withdraw_different(const EstimatorReport& other, EstimatorReport& report);

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/identify/logs/log_report.h"
 #include "awmr/identify/logs/log_setup.h"
 #include "awmr/identify/uncertainty/akaike.h"
@@ -113,6 +114,33 @@ double lead_of(const LogFit& a, const LogFit& b) {
   return std::min(aic_lead(a, b), aic_lead(a, b, kMaxSquaredInnovation));
 }
 
+bool slips(const LogFit& fit, LogChannel channel) {
+  const auto& q = fit.quantities;
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    if (q[i].kind == Kind::kWheelSlip && q[i].channel == channel && fit.is_significant(i)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Withdraws the intervals that depend on the slip of `fit`, if no position shows that the wheels
+/// slip. Empty if there is a position or no slip.
+std::optional<Finding> doubt_slip(const std::vector<DrivingLog>& logs, LogFit& fit) {
+  const bool is_of_yaw = slips(fit, LogChannel::kYawRate);
+  if (!is_of_yaw && !slips(fit, LogChannel::kSpeed)) return std::nullopt;
+  if (fit.noise.contains(LogChannel::kX)) return std::nullopt;
+  const std::vector<std::string> names = withdraw_of_slip(is_of_yaw, fit.report);
+  if (names.empty()) return std::nullopt;
+  return Finding{logs.front().file, 0, Severity::kWarning, "wheel-slip",
+                 fmt::format("without a position, these logs do not show whether wheels slip or "
+                             "the sensor of their speed has a longer delay at low speed (speed "
+                             "from the time between two encoder ticks), so the intervals of {} are "
+                             "withdrawn. Log positions, or measure the speed without driven wheels "
+                             "(optical flow, GNSS, a free wheel)",
+                             fmt::join(names, ", "))};
+}
+
 }  // namespace
 
 std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFit& chosen) {
@@ -135,7 +163,10 @@ std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFi
       closest = &other;
     }
   }
-  if (names.empty()) return std::nullopt;
+  if (names.empty()) return doubt_slip(logs, chosen.fit);
+  if (!chosen.fit.noise.contains(LogChannel::kX)) {
+    append(names, withdraw_of_slip(slips(chosen.fit, LogChannel::kYawRate), chosen.fit.report));
+  }
   const double lead = lead_of(chosen.fit, closest->fit);
   return Finding{
       logs.front().file, 0, Severity::kWarning, "wheel-slip",
