@@ -71,4 +71,12 @@ void add_row_of_rest(DrivingLog& log) {
   }
 }
 
+bool has_row_of_rest(const DrivingLog& log) {
+  const auto has_force = [&](std::size_t row) {
+    return log.force_left[row] != 0.0 || log.force_right[row] != 0.0;
+  };
+  return log.rows() > 1 && !has_force(0) && has_force(1) &&
+         std::ranges::none_of(kChannels, [&](LogChannel c) { return is_measurement(log, c, 0); });
+}
+
 }  // namespace awmr

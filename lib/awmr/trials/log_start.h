@@ -20,4 +20,8 @@ bool begins_in_motion(const DrivingLog& log);
 /// began, although the vehicle was at rest. No effect in a log without a speed.
 void add_row_of_rest(DrivingLog& log);
 
+/// True if the log begins with such a row: without forces and measurements, before a row with a
+/// force.
+bool has_row_of_rest(const DrivingLog& log);
+
 }  // namespace awmr

@@ -79,14 +79,6 @@ inline constexpr SearchedGain kSearchedGains[] = {
     {"speed_epsilon", &GainBounds::speed_epsilon,
      [](Gains<double>& g) -> double& { return g.speed.epsilon; }}};
 
-/// True if each gain is within its bounds. Absent bounds permit every value.
-inline bool is_within(const Gains<double>& gains, const GainBounds& bounds) {
-  return std::ranges::all_of(kSearchedGains, [&](const SearchedGain& gain) {
-    const std::optional<Interval>& bound = bounds.*gain.bounds;
-    return !bound || bound->contains(gain.of(gains));
-  });
-}
-
 /// The gains, each moved to the nearest value within its bounds.
 inline Gains<double> clamped(Gains<double> gains, const GainBounds& bounds) {
   for (const SearchedGain& gain : kSearchedGains) {

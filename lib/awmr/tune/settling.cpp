@@ -197,13 +197,13 @@ std::optional<SettlingChange> SettlingSearch::wider_bounds(const ObjectiveSettin
                                                            const Gains<double>& gains,
                                                            double share) {
   for (const Gains<double>& other : poles(kWiderBounds, context_, gains.observer)) {
-    if (is_within(other, bounds_) || !enough_settle(setting, other, share)) continue;
     std::vector<std::string> texts;
     for (const SearchedGain& gain : kSearchedGains) {
       const std::optional<Interval>& bound = bounds_.*gain.bounds;
       if (!bound || bound->contains(gain.of(other))) continue;
       texts.push_back(fmt::format("`bounds/{}` that contain {:.3g}", gain.key, gain.of(other)));
     }
+    if (texts.empty() || !enough_settle(setting, other, share)) continue;
     return SettlingChange{"/bounds", fmt::format("{}", fmt::join(texts, " together with "))};
   }
   return std::nullopt;

@@ -114,8 +114,7 @@ void note_unsettled_baseline(const Tuning& tuning, std::vector<Finding>& finding
   bool settles_with_paper = true;
   for (const EvaluatedGains& one : all) {
     if (one.gains != "baseline" || one.completed_share > 0.0) continue;
-    where += fmt::format("{}{}{}{}", where.empty() ? "" : "; ", one.scenario,
-                         one.scenario.empty() ? "" : ", ", name_of(one.mode));
+    where += (where.empty() ? "" : "; ") + run_name(one.scenario, one.mode);
     settles_with_paper = settles_with_paper && paper_settles(all, one);
   }
   if (where.empty()) return;

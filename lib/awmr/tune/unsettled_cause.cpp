@@ -176,8 +176,9 @@ std::optional<VariationEffect> variation_effect(const ObjectiveSetting& setting,
       {"open/wheel_forces", {.mass_factors = {}, .wheel_forces = open.wheel_forces}},
       {"open/mass_factors", {.mass_factors = open.mass_factors, .wheel_forces = {}}},
       {"open", open}};
+  const bool has_both = !open.mass_factors.empty() && !open.wheel_forces.empty();
   for (const auto& [key, part] : parts) {
-    if (!part.any()) continue;
+    if (!part.any() || (&part == &parts[2].second && !has_both)) continue;  // already tried
     ObjectiveSetting other = setting;
     other.vehicles = without(part, setting.vehicles);
     const double share = settled_share(other, gains);

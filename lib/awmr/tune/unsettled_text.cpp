@@ -39,8 +39,7 @@ std::string noise_text(const NoiseEffect& noise) {
       " in {:g} times the duration (the limits make the gains slow)", noise.time_factor);
   return fmt::format(
       ". With noise-free sensors{}, {:.0f} % settle{}: {} the heading out of the settling band, "
-      "{}. "
-      "Use sensors with less noise, or filter their readings and enter the new `noise` and "
+      "{}. Use sensors with less noise, or filter their readings and enter the new `noise` and "
       "`noise_correlation_s` in vehicle.json{}",
       noise.is_of_identified ? " and the identified values of all parameters" : "",
       100.0 * noise.share_without, noise.time_factor > 1.0 ? longer : "",
@@ -85,6 +84,10 @@ std::string pointer_of(const UnsettledRuns& found) {
 
 }  // namespace
 
+std::string run_name(const std::string& scenario, YawMode mode) {
+  return fmt::format("{}{}{}", scenario, scenario.empty() ? "" : ", ", name_of(mode));
+}
+
 std::vector<UnsettledText> unsettled_texts(std::span<const UnsettledRuns> unsettled) {
   struct Group {
     std::string runs;
@@ -94,8 +97,7 @@ std::vector<UnsettledText> unsettled_texts(std::span<const UnsettledRuns> unsett
   std::vector<Group> groups;
   for (const UnsettledRuns& one : unsettled) {
     const std::string runs =
-        fmt::format("{:.0f} % ({}{}{})", 100.0 * one.settled_share, one.scenario,
-                    one.scenario.empty() ? "" : ", ", name_of(one.mode));
+        fmt::format("{:.0f} % ({})", 100.0 * one.settled_share, run_name(one.scenario, one.mode));
     const std::string advice = advice_for(one);
     const auto known = std::ranges::find(groups, advice, &Group::advice);
     if (known == groups.end()) {

@@ -9,6 +9,9 @@
 
 namespace awmr {
 
+/// "SCENARIO, MODE", or "MODE" if the scenario has no name.
+std::string run_name(const std::string& scenario, YawMode mode);
+
 struct UnsettledText {
   std::string text;
   std::string pointer;  ///< place in tune.json that the advice is about; may be empty

@@ -10,6 +10,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
+#include "awmr/trials/log_start.h"
 #include "awmr/trials/replay.h"
 
 namespace awmr {
@@ -123,16 +124,6 @@ DriveChannel measured_channel(const DrivingLog& log, LogChannel which, std::size
   channel.noise_from_log = !channel.noise_in_run;
   if (channel.noise_from_log) channel.noise = noise_in(log, which, first);
   return channel;
-}
-
-/// True if the log begins with a row of rest that add_row_of_rest() added (log_start.h): a row
-/// without forces and measurements. Its steering command is that of the next row.
-bool has_row_of_rest(const DrivingLog& log) {
-  const auto has_force = [&](std::size_t row) {
-    return log.force_left[row] != 0.0 || log.force_right[row] != 0.0;
-  };
-  return log.rows() > 1 && !has_force(0) && has_force(1) &&
-         std::ranges::none_of(kChannels, [&](LogChannel c) { return is_measurement(log, c, 0); });
 }
 
 }  // namespace

@@ -210,7 +210,7 @@ LogFitOptions options_from(const FamilyFit& at_rows, const LogFitOptions& power_
 }
 
 /// Adds averaging of speed and yaw rate over one row, unless a filter of the channel is a term.
-LogFitOptions with_averaging(LogFitOptions options, const std::vector<DrivingLog>& logs) {
+LogFitOptions with_averaged_rows(LogFitOptions options, const std::vector<DrivingLog>& logs) {
   for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
     const FreeQuantity averaging = free_term(FreeQuantity::Kind::kAveraging, channel);
     const bool has_other = std::ranges::any_of(options.terms, [&](const FreeTerm& term) {
@@ -231,7 +231,7 @@ double lead_over_rows(const FamilyFit& between, const std::vector<DrivingLog>& l
                       const LogFitOptions& power_law) {
   const LogFitOptions options = from_optimum(with_back_emf_as_in(between, power_law), between);
   double lead = std::numeric_limits<double>::infinity();
-  std::vector<LogFitOptions> at_rows{options, with_averaging(options, logs)};
+  std::vector<LogFitOptions> at_rows{options, with_averaged_rows(options, logs)};
   if (at_rows[1].terms.size() == options.terms.size()) at_rows.pop_back();
   for (const LogFitOptions& one : at_rows) {
     const LogFit fit = fit_family(logs, one, between.surge, between.yaw).fit;

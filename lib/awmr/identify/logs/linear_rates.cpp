@@ -25,20 +25,6 @@ void add_servo(const LinearPlant& plant, const State<double>& s, double command_
   out.steering_by_command = std::abs(command_rad) <= p.steering_max_rad ? free : 0.0;
 }
 
-void add_kinematics(const State<double>& s, LinearRates& out) {
-  const double c = std::cos(s.psi_rad);
-  const double d = std::sin(s.psi_rad);
-  out.rates.x_m = s.u_mps * c - s.v_mps * d;
-  out.rates.y_m = s.u_mps * d + s.v_mps * c;
-  out.rates.psi_rad = s.r_radps;
-  out.by_state.x_psi = -out.rates.y_m;
-  out.by_state.x_u = c;
-  out.by_state.x_v = -d;
-  out.by_state.y_psi = out.rates.x_m;
-  out.by_state.y_u = d;
-  out.by_state.y_v = c;
-}
-
 /// Adds the derivatives of a rate of the state with respect to the parameters p of its resistance
 /// g: -(dg/dp)/inertia.
 template <double DrivenSlopes::*kRate>
@@ -126,6 +112,20 @@ ResistanceSlopes LinearResistance::at(double magnitude) const {
           .by_beta = law_.alpha * power * log_magnitude,
           .by_coulomb = 1.0,
           .by_quadratic = square};
+}
+
+void add_kinematics(const State<double>& s, LinearRates& out) {
+  const double c = std::cos(s.psi_rad);
+  const double d = std::sin(s.psi_rad);
+  out.rates.x_m = s.u_mps * c - s.v_mps * d;
+  out.rates.y_m = s.u_mps * d + s.v_mps * c;
+  out.rates.psi_rad = s.r_radps;
+  out.by_state.x_psi = -out.rates.y_m;
+  out.by_state.x_u = c;
+  out.by_state.x_v = -d;
+  out.by_state.y_psi = out.rates.x_m;
+  out.by_state.y_u = d;
+  out.by_state.y_v = c;
 }
 
 ResistanceSlopes LinearResistance::operator()(double speed) const {

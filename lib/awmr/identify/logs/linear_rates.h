@@ -118,6 +118,11 @@ struct LinearRates {
   double steering_by_max_rate = 0.0;
 };
 
+/// Sets the rates of the pose at the state `s`, and their derivatives with respect to the state:
+///
+///     x_dot = u cos psi - v sin psi,   y_dot = u sin psi + v cos psi,   psi_dot = r
+void add_kinematics(const State<double>& s, LinearRates& out);
+
 /// Computes the rates of the state at the state `s`, and their derivatives. Before the first call,
 /// `out` must be LinearRates{}, because the function does not write derivatives that are always 0.
 void linear_rates(const LinearPlant& p, const State<double>& s, const HeldCommand& command,

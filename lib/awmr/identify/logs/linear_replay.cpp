@@ -1,7 +1,6 @@
 #include "awmr/identify/logs/linear_replay.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "awmr/trials/replay.h"
@@ -62,36 +61,24 @@ void step_along(const LogSignals& signals, std::size_t row, const ActingRows& ro
   }
 }
 
-/// Rates of the pose: x_dot = u cos psi - v sin psi, y_dot = u sin psi + v cos psi, psi_dot = r.
-struct PoseRates {
-  explicit PoseRates(const State<double>& s)
-      : cosine(std::cos(s.psi_rad)),
-        sine(std::sin(s.psi_rad)),
-        x(s.u_mps * cosine - s.v_mps * sine),
-        y(s.u_mps * sine + s.v_mps * cosine),
-        psi(s.r_radps) {}
-
-  /// Changes of x_dot and y_dot by changes of u, v and psi.
-  double x_by(double u, double v, double heading) const {
-    return cosine * u - sine * v - y * heading;
-  }
-  double y_by(double u, double v, double heading) const {
-    return sine * u + cosine * v + x * heading;
-  }
-
-  double cosine, sine;
-  double x, y, psi;
-};
+/// Changes of x_dot and y_dot by changes of u, v and psi. `by_state`: derivatives of the rates of
+/// the pose (add_kinematics()).
+double x_dot_by(const StateSlopes& by_state, double u, double v, double heading) {
+  return by_state.x_u * u + by_state.x_v * v + by_state.x_psi * heading;
+}
+double y_dot_by(const StateSlopes& by_state, double u, double v, double heading) {
+  return by_state.y_u * u + by_state.y_v * v + by_state.y_psi * heading;
+}
 
 /// Adds `factor` times the derivatives of the pose rates at the motion `of` to those of the pose.
-void add_by_column(const LinearMotion& of, double factor, std::size_t columns, LinearMotion& to) {
-  const PoseRates rates(of.state);
+void add_by_column(const LinearMotion& of, const StateSlopes& by_state, double factor,
+                   std::size_t columns, LinearMotion& to) {
   for (std::size_t c = 0; c < columns; ++c) {
     const double u = of.row(LogChannel::kSpeed, columns)[c];
     const double v = of.row(LogChannel::kSway, columns)[c];
     const double heading = of.row(LogChannel::kHeading, columns)[c];
-    to.row(LogChannel::kX, columns)[c] += factor * rates.x_by(u, v, heading);
-    to.row(LogChannel::kY, columns)[c] += factor * rates.y_by(u, v, heading);
+    to.row(LogChannel::kX, columns)[c] += factor * x_dot_by(by_state, u, v, heading);
+    to.row(LogChannel::kY, columns)[c] += factor * y_dot_by(by_state, u, v, heading);
     to.row(LogChannel::kHeading, columns)[c] += factor * of.row(LogChannel::kYawRate, columns)[c];
   }
 }
@@ -103,17 +90,21 @@ State<double> extrapolate(const DelayedCommand& command, double h_s, LinearStepp
   const LinearMotion start = motion;
   State<double> by_time = stepper.step_along_tangent(command, h_s, motion);
   const LinearMotion end = motion;
-  const PoseRates before(start.state);
-  const PoseRates after(end.state);
-  motion.state.x_m += 0.5 * h_s * (after.x - before.x);
-  motion.state.y_m += 0.5 * h_s * (after.y - before.y);
-  motion.state.psi_rad += 0.5 * h_s * (after.psi - before.psi);
-  add_by_column(start, -0.5 * h_s, stepper.columns(), motion);
-  add_by_column(end, 0.5 * h_s, stepper.columns(), motion);
+  LinearRates before{};
+  LinearRates after{};
+  add_kinematics(start.state, before);
+  add_kinematics(end.state, after);
+  motion.state.x_m += 0.5 * h_s * (after.rates.x_m - before.rates.x_m);
+  motion.state.y_m += 0.5 * h_s * (after.rates.y_m - before.rates.y_m);
+  motion.state.psi_rad += 0.5 * h_s * (after.rates.psi_rad - before.rates.psi_rad);
+  add_by_column(start, before.by_state, -0.5 * h_s, stepper.columns(), motion);
+  add_by_column(end, after.by_state, 0.5 * h_s, stepper.columns(), motion);
   const auto [u, v, heading] = std::tuple(by_time.u_mps, by_time.v_mps, by_time.psi_rad);
-  by_time.x_m = 0.5 * (before.x + after.x + h_s * after.x_by(u, v, heading));
-  by_time.y_m = 0.5 * (before.y + after.y + h_s * after.y_by(u, v, heading));
-  by_time.psi_rad = 0.5 * (before.psi + after.psi + h_s * by_time.r_radps);
+  by_time.x_m =
+      0.5 * (before.rates.x_m + after.rates.x_m + h_s * x_dot_by(after.by_state, u, v, heading));
+  by_time.y_m =
+      0.5 * (before.rates.y_m + after.rates.y_m + h_s * y_dot_by(after.by_state, u, v, heading));
+  by_time.psi_rad = 0.5 * (before.rates.psi_rad + after.rates.psi_rad + h_s * by_time.r_radps);
   return by_time;
 }
 

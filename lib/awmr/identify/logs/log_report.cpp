@@ -107,34 +107,38 @@ void withdraw_intervals(EstimatorReport& report, std::string_view prefix) {
   }
 }
 
-std::vector<std::string> withdraw_of_slip(bool is_of_yaw, EstimatorReport& report) {
-  const auto is_of_turns = [](const std::string& name) {
-    return name.starts_with("yaw.") || name.starts_with("sway.") || name.starts_with("steering.") ||
-           name == info(ParameterId::kInertiaNorm).name;
-  };
+namespace {
+
+/// Withdraws the intervals of the model parameters in `report` that are `chosen`. Returns the names
+/// of these parameters.
+template <class Chosen>
+std::vector<std::string> withdraw_if(EstimatorReport& report, Chosen chosen) {
   std::vector<std::string> names;
   for (EstimatorParameter& mine : report.parameters) {
-    if (!parameter_by_name(mine.name) || !mine.std_error) continue;
-    if (!is_of_yaw && is_of_turns(mine.name)) continue;
+    if (!parameter_by_name(mine.name) || !mine.std_error || !chosen(mine)) continue;
     names.push_back(mine.name);
     withdraw(mine);
   }
   return names;
 }
 
+}  // namespace
+
+std::vector<std::string> withdraw_of_slip(bool is_of_yaw, EstimatorReport& report) {
+  return withdraw_if(report, [is_of_yaw](const EstimatorParameter& mine) {
+    const std::string& name = mine.name;
+    const bool is_of_turns = name.starts_with("yaw.") || name.starts_with("sway.") ||
+                             name.starts_with("steering.") ||
+                             name == info(ParameterId::kInertiaNorm).name;
+    return is_of_yaw || !is_of_turns;
+  });
+}
+
 std::vector<std::string> withdraw_different(const EstimatorReport& other, EstimatorReport& report) {
-  std::vector<std::string> names;
-  for (EstimatorParameter& mine : report.parameters) {
-    if (!parameter_by_name(mine.name) || !mine.std_error) continue;
+  return withdraw_if(report, [&other](const EstimatorParameter& mine) {
     const auto found = std::ranges::find(other.parameters, mine.name, &EstimatorParameter::name);
-    if (found == other.parameters.end() ||
-        !(std::abs(found->value - mine.value) > *mine.std_error)) {
-      continue;
-    }
-    names.push_back(mine.name);
-    withdraw(mine);
-  }
-  return names;
+    return found != other.parameters.end() && std::abs(found->value - mine.value) > *mine.std_error;
+  });
 }
 
 }  // namespace awmr

@@ -20,14 +20,28 @@ using Kind = FreeQuantity::Kind;
 
 using Terms = std::vector<FreeTerm>;
 
-/// True if the fit has significant wheel slip or late commands (LogFit::is_significant()). With
-/// both, a reading changes earlier than the logged commands explain.
-bool reads_early(const LogFit& fit) {
+/// True if a significant term of the fit (LogFit::is_significant()) is `of_interest`.
+template <class OfInterest>
+bool any_significant(const LogFit& fit, OfInterest of_interest) {
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeTerm term{fit.quantities[i], fit.coordinates[i]};
-    if (fit.is_significant(i) && (is_slip(term) || is_late_commands(term))) return true;
+    if (fit.is_significant(i) && of_interest(term)) return true;
   }
   return false;
+}
+
+/// True if the fit has significant wheel slip or late commands. With both, a reading changes
+/// earlier than the logged commands explain.
+bool reads_early(const LogFit& fit) {
+  return any_significant(
+      fit, [](const FreeTerm& term) { return is_slip(term) || is_late_commands(term); });
+}
+
+/// True if the fit has significant slip of the wheels that measure the channel.
+bool slips(const LogFit& fit, LogChannel channel) {
+  return any_significant(fit, [channel](const FreeTerm& term) {
+    return is_slip(term) && term.quantity.channel == channel;
+  });
 }
 
 std::string_view explanation(const FamilyFit& fit) {
@@ -112,16 +126,6 @@ std::vector<Terms> other_explanations(const Terms& terms, const std::vector<Driv
 /// smaller.
 double lead_of(const LogFit& a, const LogFit& b) {
   return std::min(aic_lead(a, b), aic_lead(a, b, kMaxSquaredInnovation));
-}
-
-bool slips(const LogFit& fit, LogChannel channel) {
-  const auto& q = fit.quantities;
-  for (std::size_t i = 0; i < q.size(); ++i) {
-    if (q[i].kind == Kind::kWheelSlip && q[i].channel == channel && fit.is_significant(i)) {
-      return true;
-    }
-  }
-  return false;
 }
 
 /// Withdraws the intervals that depend on the slip of `fit`, if no position shows that the wheels
