@@ -223,23 +223,19 @@ LogFitOptions with_averaged_rows(LogFitOptions options, const std::vector<Drivin
   return options;
 }
 
-/// Returns the lowest AIC of fits with changes at the rows, minus the AIC of `between`, a fit with
-/// unknown times of the changes and the same terms. One of the fits has averaging too, because the
-/// speed of an encoder is the mean since the row before, so it responds to a change at a row as if
-/// the change were between the rows. Returns -infinity if a fit fails.
-double lead_over_rows(const FamilyFit& between, const std::vector<DrivingLog>& logs,
-                      const LogFitOptions& power_law) {
-  const LogFitOptions options = from_optimum(with_back_emf_as_in(between, power_law), between);
-  double lead = std::numeric_limits<double>::infinity();
-  std::vector<LogFitOptions> at_rows{options, with_averaged_rows(options, logs)};
-  if (at_rows[1].terms.size() == options.terms.size()) at_rows.pop_back();
-  for (const LogFitOptions& one : at_rows) {
-    const LogFit fit = fit_family(logs, one, between.surge, between.yaw).fit;
-    const double lead_of_one = aic_lead(between.fit, fit);
-    if (!std::isfinite(lead_of_one)) return -std::numeric_limits<double>::infinity();
-    lead = std::min(lead, lead_of_one);
+/// Fits the logs with changes at the rows, and the families and terms of `between`, a fit with
+/// unknown times of the changes: with averaging too and without it. The speed of an encoder is the
+/// mean since the row before, so it responds to a change at a row as if the change were between the
+/// rows.
+std::vector<FamilyFit> fits_at_rows(const FamilyFit& between, const std::vector<DrivingLog>& logs,
+                                    const LogFitOptions& power_law) {
+  const LogFitOptions same = from_optimum(with_back_emf_as_in(between, power_law), between);
+  const LogFitOptions averaged = with_averaged_rows(same, logs);
+  std::vector<FamilyFit> fits{fit_family(logs, same, between.surge, between.yaw)};
+  if (averaged.terms.size() > same.terms.size()) {
+    fits.push_back(fit_family(logs, averaged, between.surge, between.yaw));
   }
-  return lead;
+  return fits;
 }
 
 }  // namespace
@@ -254,8 +250,9 @@ bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& poin
   // A quick test first.
   if (!(uncertain_times(problem, point, delays, {}).lead > kLikelier)) return false;
   std::vector<FreeQuantity> optional = further_terms(problem);
-  std::erase_if(optional,
-                [&](const FreeQuantity& q) { return q.is_ramp() || has(delays, q.kind); });
+  std::erase_if(optional, [&](const FreeQuantity& q) {
+    return q.is_ramp() || has(delays, q.kind) || q.kind == FreeQuantity::Kind::kParameter;
+  });
   for (const ParameterId term : candidate_terms) {
     if (!place_of(quantities, term)) optional.push_back(free_parameter(term));
   }
@@ -291,14 +288,21 @@ FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
   LogFitOptions from = options_from(at_rows, power_law, logs.front().median_step_s());
   from.effort = std::make_shared<Effort>(power_law.effort->left() / kEffortShare);
   between.fit = fit_first_family(between.logs, from, options);
-  const double lead = lead_over_rows(between.fit, logs, power_law);
+  std::vector<FamilyFit> others = fits_at_rows(between.fit, logs, power_law);
   between.fit.options.effort = power_law.effort;
-  if (!from.effort->is_over() && between.fit.fit.usable &&
-      are_times_between_rows(between.fit.fit.change_times) && lead > kLikelier) {
+  const bool is_usable = std::ranges::all_of(others, [](const auto& one) { return one.fit.usable; });
+  const FamilyFit& other =
+      *std::ranges::max_element(others, [](const FamilyFit& a, const FamilyFit& b) {
+        return aic_lead(b.fit, a.fit) > 0.0;
+      });
+  if (!from.effort->is_over() && between.fit.fit.usable && is_usable &&
+      are_times_between_rows(between.fit.fit.change_times) &&
+      aic_lead(between.fit.fit, other.fit) > kLikelier) {
     between.findings.push_back(changes_between_rows_finding(logs.front().file));
     return between;
   }
-  return {logs, fit_first_family(logs, power_law, options), {}};
+  if (!is_usable) return {logs, fit_first_family(logs, power_law, options), {}};
+  return {logs, with_new_terms(logs, power_law, other), {}};
 }
 
 }  // namespace awmr

@@ -127,6 +127,23 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
                        least.value, most.value, kWhy)}};
 }
 
+/// Finding `gyro-bias` about a constant offset of the yaw rate. With a heading,
+/// log_consistency.cpp reports it.
+std::vector<Finding> gyro_bias_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
+  for (const FoundTerm& bias : found_terms(fit, Kind::kBias)) {
+    if (bias.quantity.channel != LogChannel::kYawRate) continue;
+    if (fit.noise.contains(LogChannel::kHeading)) continue;
+    findings.push_back(
+        {file, 0, Severity::kWarning, "gyro-bias",
+         fmt::format("yaw_rate_radps is {:.3g} +- {:.2g} rad/s while the vehicle does not turn: "
+                     "the gyroscope has a bias. The fit estimates this bias; to avoid it, let the "
+                     "gyroscope settle at rest before a drive",
+                     bias.value, bias.error)});
+  }
+  return findings;
+}
+
 /// Finding `compass-deviation` about the coefficients of the compass (FreeQuantity::Kind).
 std::vector<Finding> compass_findings(const LogFit& fit, const std::string& file) {
   std::vector<std::string> parts;
@@ -491,7 +508,8 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
           {file, 0, Severity::kWarning, is_convex ? "force-curve" : one.code, one.text(term, fit)});
     }
   }
-  for (const auto& more : {position_findings(fit, file), compass_findings(fit, file),
+  for (const auto& more : {gyro_bias_findings(fit, file), position_findings(fit, file),
+                           compass_findings(fit, file),
                            actuator_findings(fit, file), force_findings(fit, file)}) {
     append(findings, more);
   }

@@ -28,7 +28,8 @@ std::vector<CandidateTerm> candidate_terms(const LogProblem& problem, const Sear
   std::vector<CandidateTerm> found;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const double value = tests[i].value;
-    if (channels[i].may_be_zero() && !(value > 0.0)) continue;
+    const bool is_positive = channels[i].may_be_zero() || channels[i].kind == Kind::kParameter;
+    if (is_positive && !(value > 0.0)) continue;
     const double significance = std::abs(value) / tests[i].noise_error;
     if (significance > kWorthATry) {
       found.push_back({channels[i], value, significance, tests[i].gain});
@@ -134,6 +135,7 @@ class TermTrials {
       const bool is_weak = candidate.significance < kComparable * terms_.front().significance;
       if (lowest_.best() && is_weak) break;
       consider(candidate);
+      if (is_clear_friction(candidate)) return std::move(lowest_.best());
     }
     consider_filters();
     if (delay_s_ > 0.0) consider_filters_of_both();
@@ -177,6 +179,15 @@ class TermTrials {
     if (found_s > 0.0 && is_sensor && is_often_filtered(more.channel) && !is_averaged) {
       filters_.emplace_back(more.channel, found_s);
     }
+  }
+
+  /// True if the candidate is the most significant one, and is Coulomb friction whose trial lowers
+  /// AIC by more than 100. It is then added before all other terms, because these could imitate it.
+  /// If the true resistance has no Coulomb friction, the comparison of families finds that later.
+  bool is_clear_friction(const CandidateTerm& candidate) {
+    constexpr double kClear = 100.0;
+    return &candidate == &terms_.front() && candidate.quantity.kind == Kind::kParameter &&
+           lowest_.best() && akaike_of(settled_) - akaike_of(*lowest_.best()) > kClear;
   }
 
   /// True for the most significant candidate, if its significance is above kBeyondDoubt.

@@ -234,36 +234,13 @@ void compete_with_dead_zone_and_coulomb(const std::vector<DrivingLog>& logs,
   result.others.push_back(std::move(both));
 }
 
-/// True if the errors of the fit are hardly larger than the sensor noise (LogFit::relative_error
-/// below 1.2), and all its delays, lags and command errors are significant.
-bool has_right_terms(const LogFit& fit) {
-  constexpr double kErrorOfSensors = 1.2;
-  if (!(fit.relative_error < kErrorOfSensors)) return false;
-  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    const FreeQuantity& q = fit.quantities[i];
-    const bool is_term =
-        q.kind != FreeQuantity::Kind::kParameter && q.kind != FreeQuantity::Kind::kBias;
-    if (is_term && q.scale == Scale::kLinear && !q.is_form() && !fit.is_significant(i))
-      return false;
-  }
-  return true;
-}
-
-/// Searches delays, lags and command errors again for the best resistance families, and keeps the
-/// new fit if it is better. Unless has_right_terms(), the search starts without any of these terms,
-/// because terms found with other families may only have compensated for a wrong resistance.
+/// Searches delays, lags and command errors again for the best resistance families
+/// (with_new_terms()), and keeps the new fit if it is better.
 void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         BestFamily& result) {
   FamilyFit& best = result.best;
   if (!best.fit.usable || result.is_out_of_time) return;
-  LogFitOptions options = from_optimum(best.options, best);
-  options.finds_delays = true;
-  if (!has_right_terms(best.fit)) {
-    std::erase_if(options.terms,
-                  [](const FreeTerm& term) { return !term.quantity.is_stribeck_or_slope(); });
-    append(options.terms, power_law.terms);
-  }
-  FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
+  FamilyFit own = with_new_terms(logs, power_law, best);
   note_limit(logs, power_law, "it had looked for delays, lags and command errors", best, result);
   if (aic_lead(own.fit, best.fit) > 0.0) best = std::move(own);
 }

@@ -119,6 +119,21 @@ const NoiseLevels& noise_of_better(const LogFit& a, const LogFit& b) {
   return size_of_errors({&a}).size <= size_of_errors({&b}).size ? a.noise : b.noise;
 }
 
+/// True if the errors of the fit are hardly larger than the sensor noise (LogFit::relative_error
+/// below 1.2), and all its delays, lags and command errors are significant.
+bool has_right_terms(const LogFit& fit) {
+  constexpr double kErrorOfSensors = 1.2;
+  if (!(fit.relative_error < kErrorOfSensors)) return false;
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    const FreeQuantity& q = fit.quantities[i];
+    const bool is_term =
+        q.kind != FreeQuantity::Kind::kParameter && q.kind != FreeQuantity::Kind::kBias;
+    if (is_term && q.scale == Scale::kLinear && !q.is_form() && !fit.is_significant(i))
+      return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 ErrorSize size_of_errors(std::initializer_list<const LogFit*> fits) {
@@ -160,7 +175,13 @@ FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, F
                    Family yaw) {
   FamilyFit result{surge, yaw, std::move(options), {}};
   result.fit = fit_logs(logs, result.options);
-  result.fit.report.family = families_in_words(surge, yaw);
+  for (const ParameterId coulomb : result.options.optional_coulomb) {
+    if (!has(result.fit.quantities, coulomb)) continue;
+    result.options.free.push_back(coulomb);
+    (coulomb == ParameterId::kYawCoulomb ? result.yaw : result.surge) = Family::kCoulombPower;
+  }
+  result.options.optional_coulomb.clear();
+  result.fit.report.family = families_in_words(result.surge, result.yaw);
   if (result.options.frees(ParameterId::kBackEmf)) result.fit.report.family += ", back-EMF";
   if (result.fit.usable) result.fit.report.aicc = aic_under(result.fit.noise, result.fit);
   result.options.give_up_above = LogFitOptions{}.give_up_above;
@@ -233,6 +254,18 @@ FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOpti
   append(options.terms, more);
   const LogFit fit = fit_roughly(logs, options);
   return {surge, yaw, std::move(options), fit};
+}
+
+FamilyFit with_new_terms(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                         const FamilyFit& fit) {
+  LogFitOptions options = from_optimum(fit.options, fit);
+  options.finds_delays = true;
+  if (!has_right_terms(fit.fit)) {
+    std::erase_if(options.terms,
+                  [](const FreeTerm& term) { return !term.quantity.is_stribeck_or_slope(); });
+    append(options.terms, power_law.terms);
+  }
+  return fit_with(logs, std::move(options), fit.surge, fit.yaw);
 }
 
 LogFitOptions with_limits_of(const FamilyFit& best, const std::vector<DrivingLog>& logs,

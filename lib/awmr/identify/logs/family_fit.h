@@ -89,6 +89,13 @@ FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOpti
                            const FamilyFit& inner, Family surge, Family yaw,
                            const std::vector<FreeTerm>& more);
 
+/// Searches delays, lags and command errors again for the families of `fit`, starting at its
+/// optimum. If the errors of `fit` are much larger than the sensor noise (LogFit::relative_error
+/// 1.2 or more), or if one of its terms is not significant, the search starts without any of these
+/// terms, because they may only have compensated for a wrong resistance or wrong commands.
+FamilyFit with_new_terms(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                         const FamilyFit& fit);
+
 /// Returns `options` for fits that compete with `best`. To save time, they stop early if they are
 /// much worse (is_far_worse() in multistart.h), or if LogFit::relative_error exceeds that of `best`
 /// by more than 50 %. No limits if `best` is not usable.

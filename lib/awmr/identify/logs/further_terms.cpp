@@ -252,7 +252,14 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   add_term(problem, Kind::kSteeringDelay, has(quantities, ParameterId::kSteeringTimeConstant),
            found);
   add_steering(problem, found);
+  if (problem.model.noise.contains(LogChannel::kYawRate) &&
+      !has_kind(quantities, Kind::kBias, LogChannel::kYawRate)) {
+    found.push_back(free_term(Kind::kBias, LogChannel::kYawRate));
+  }
   add_motors(problem, found);
+  for (const ParameterId coulomb : problem.optional_coulomb) {
+    if (!has(quantities, coulomb)) found.push_back(free_parameter(coulomb));
+  }
   add_forces(problem, found);
   add_scales(problem, found);
   add_slip(problem, found);

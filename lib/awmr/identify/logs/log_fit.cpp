@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "awmr/core/containers.h"
 #include "awmr/core/index.h"
 #include "awmr/core/random.h"
 #include "awmr/core/sample_quantile.h"
@@ -346,8 +347,12 @@ LogFitOptions with_terms_of(const LogFit& fit, LogFitOptions options) {
   options.terms.clear();
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
-    if (q.kind == Kind::kParameter || q.kind == Kind::kBias) continue;
-    options.terms.push_back({q, fit.coordinates[i]});
+    if (q.kind == Kind::kParameter) continue;
+    if (q.kind == Kind::kBias) {
+      if (!contains(options.biases, q.channel)) options.biases.push_back(q.channel);
+    } else {
+      options.terms.push_back({q, fit.coordinates[i]});
+    }
   }
   return options;
 }

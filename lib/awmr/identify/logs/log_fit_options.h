@@ -63,6 +63,9 @@ struct LogFitOptions {
   std::vector<FreeTerm> terms;
   std::vector<LogChannel> biases;  ///< channels whose constant offset is estimated
   bool finds_delays = true;        ///< true: the fit also searches delays.h for further terms
+  /// Coulomb friction that the search for further terms may add, because the resistance family of
+  /// its axis is a power law that the user did not select.
+  std::vector<ParameterId> optional_coulomb;
   /// True: the fit stops early (LogFit::has_changes_between_rows) if the commands probably change
   /// between the rows of the logs.
   bool tests_changes = false;

@@ -59,6 +59,7 @@ LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions&
   problem.initial = initial_coordinates(options);
   problem.model.longest_step_s = step_s_at(problem.model, problem.initial);
   problem.bounds = coordinate_bounds(problem.model.quantities, problem.initial, options.vehicle);
+  problem.optional_coulomb = options.optional_coulomb;
   problem.loss = options.loss;
   problem.threads = options.threads;
   problem.deadline = options.deadline;

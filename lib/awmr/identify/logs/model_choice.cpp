@@ -70,6 +70,10 @@ FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOpti
   if (!open.any()) return fit_family(logs, power_law, surge, yaw);
   LogFitOptions first = power_law;
   first.give_up_above = kErrorOfModel;
+  if (open.surge && surge == Family::kPower) first.optional_coulomb = {ParameterId::kSurgeCoulomb};
+  if (open.yaw && yaw == Family::kPower) {
+    first.optional_coulomb.push_back(ParameterId::kYawCoulomb);
+  }
   FamilyFit fit = fit_family(logs, first, surge, yaw);
   if (!fit.fit.gave_up) return fit;
   first = power_law;
