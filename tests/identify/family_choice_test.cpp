@@ -280,6 +280,22 @@ TEST(Families, DropTermsOfThePreviousFamily) {
   }
 }
 
+TEST(Families, FirstFitAddsCoulombFrictionOnlyIfTheVehicleHasIt) {
+  for (const double coulomb : {0.0, 0.2}) {
+    const std::vector<DrivingLog> logs = with_coulomb_friction(coulomb);
+    LogFitOptions options = from_nothing(logs);
+    options.optional_coulomb = {ParameterId::kSurgeCoulomb, ParameterId::kYawCoulomb};
+    const FamilyFit first = fit_family(logs, options, Family::kPower, Family::kPower);
+    ASSERT_TRUE(first.fit.usable);
+    EXPECT_EQ(first.surge, coulomb > 0.0 ? Family::kCoulombPower : Family::kPower);
+    EXPECT_EQ(first.yaw, Family::kPower);
+    EXPECT_EQ(first.options.frees(ParameterId::kSurgeCoulomb), coulomb > 0.0);
+    EXPECT_TRUE(first.options.optional_coulomb.empty());
+    const double fitted = fitted_values(first.options, first.fit)[at(ParameterId::kSurgeCoulomb)];
+    EXPECT_NEAR(fitted, coulomb, 0.05);
+  }
+}
+
 TEST(Families, SearchesAgainFromABetterAlternative) {
   const std::vector<DrivingLog> logs{drive(kTruths[0], 9, {.duration_s = 20.0, .rate_hz = 50.0})};
   const LogFitOptions options = from_nothing(logs);

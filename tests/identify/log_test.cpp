@@ -185,6 +185,26 @@ TEST(Log, FindsADelayAndABias) {
   EXPECT_LT(*parameter("input_delay_s").std_error, 0.003);
 }
 
+TEST(Log, FindsTheBiasOfAGyroscopeWithoutAHeading) {
+  constexpr double kBias_radps = 0.02;
+  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 15.0, .rate_hz = 50.0}, kPreciseSensors);
+  for (const LogChannel c : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) log[c].reset();
+  for (double& r : log[LogChannel::kYawRate]->value) r += kBias_radps;
+  TrialData data;
+  data.logs = {log};
+  const auto result = identify(robot(), data, power_law(), {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "gyro-bias"));
+  EXPECT_FALSE(has_finding(*result, "side-pull"));
+  const auto& parameters = result->model.record.reports.back().parameters;
+  const auto bias =
+      std::ranges::find(parameters, "bias.yaw_rate_radps", &EstimatorParameter::name);
+  ASSERT_TRUE(bias != parameters.end() && bias->std_error);
+  EXPECT_NEAR(bias->value, kBias_radps, 4.5 * *bias->std_error);
+  expect_recovered(*result, ParameterId::kYawAlpha, kTruths[1].a3, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
+}
+
 /// Shifts the commands of a log by this number of rows: to later rows if positive.
 void move_commands(DrivingLog& log, int rows) {
   const auto move = [rows](std::vector<double>& v) {
