@@ -89,7 +89,7 @@ std::vector<double> positions_of(const std::vector<State<double>>& states, LogCh
 /// Log with rows every `every` fast rows, whose speed and yaw rate come from alpha-beta filters of
 /// the distance and the angle, which have white noise (m, rad).
 DrivingLog tracked_log(std::size_t every, double alpha, double beta, double noise_std) {
-  const DrivingLog fast = fast_drive(20.0);
+  const DrivingLog fast = fast_drive(10.0);
   const std::vector<State<double>> states = motion_of(fast);
   Random random(4, 2);
   std::map<LogChannel, std::vector<double>> rates;
@@ -103,7 +103,7 @@ DrivingLog tracked_log(std::size_t every, double alpha, double beta, double nois
 }
 
 TEST(FirmwareLog, SpeedAndYawRateOfATrackingFilterAreAllowedFor) {
-  const Identification result = fit_of_firmware(tracked_log(8, 0.3, 0.12, 0.0015));
+  const Identification result = fit_of_firmware(tracked_log(8, 0.3, 0.12, 0.00105));
   EXPECT_TRUE(has_finding(result, "sensor-lag", "second order"));
   EXPECT_FALSE(has_finding(result, "actuator-lag"));
   EXPECT_FALSE(has_finding(result, "smoothed-channel"));
@@ -118,7 +118,7 @@ TEST(FirmwareLog, SpeedAndYawRateOfATrackingFilterAreAllowedFor) {
 /// in whole counts of `count_m` since the row before, divided by the time; the yaw rate is that of
 /// a gyroscope.
 DrivingLog counted_log(std::size_t every, double count_m) {
-  DrivingLog fast = fast_drive(20.0);
+  DrivingLog fast = fast_drive(10.0);
   for (std::size_t i = 0; i < fast.rows(); ++i) {
     const std::size_t from = i - i % every;
     fast.force_left[i] = fast.force_left[from];
@@ -129,7 +129,7 @@ DrivingLog counted_log(std::size_t every, double count_m) {
   std::vector<double> counted_m = positions_of(states, LogChannel::kSpeed, every);
   for (double& one : counted_m) one = count_m * std::floor(one / count_m);
   const double row_s = kFastStep_s * static_cast<double>(every);
-  const Reading gyroscope = noisy(states, 0.005);
+  const Reading gyroscope = noisy(states, 0.0035);
   const auto reading = [&](LogChannel channel, std::size_t i) {
     if (channel == LogChannel::kYawRate) return gyroscope(channel, i);
     const std::size_t row = i / every;
@@ -183,11 +183,11 @@ INSTANTIATE_TEST_SUITE_P(Short, RampedLogs, ::testing::Values(false));
 INSTANTIATE_TEST_SUITE_P(Long, RampedLogs, ::testing::Values(true));
 
 DrivingLog ramped_log(double rise, double fall) {
-  const DrivingLog fast = fast_drive(25.0);
+  const DrivingLog fast = fast_drive(18.0);
   DrivingLog motors = fast;
   motors.force_left = ramped_force(fast.force_left, rise, fall);
   motors.force_right = ramped_force(fast.force_right, rise, fall);
-  return thinned(fast, 5, kSpeedAndYawRate, noisy(motion_of(motors), 0.007));
+  return thinned(fast, 5, kSpeedAndYawRate, noisy(motion_of(motors), 0.005));
 }
 
 TEST_P(RampedLogs, SoftStartIsEstimated) {
@@ -221,14 +221,14 @@ TEST_P(RampedLogs, SlewRateLimitOfRiseAndFallIsEstimated) {
 TEST(FirmwareLog, ChangesInCyclesBetweenRowsAreNotADeadTime) {
   constexpr std::size_t kEvery = 10;
   constexpr std::size_t kCycle = 5;
-  DrivingLog fast = fast_drive(25.0);
+  DrivingLog fast = fast_drive(12.5);
   for (std::vector<double>* const signal :
        {&fast.force_left, &fast.force_right, &*fast.steering_command_rad}) {
     const std::vector<double> all = *signal;
     for (std::size_t i = 0; i < all.size(); ++i) (*signal)[i] = all[i - i % kCycle];
   }
   const Identification result =
-      fit_of_firmware(thinned(fast, kEvery, kSpeedAndYawRate, noisy(motion_of(fast), 0.004)));
+      fit_of_firmware(thinned(fast, kEvery, kSpeedAndYawRate, noisy(motion_of(fast), 0.0028)));
   EXPECT_FALSE(has_finding(result, "actuator-lag"));
   EXPECT_FALSE(has_finding(result, "late-commands"));
   expect_vehicle_of_log(result);
@@ -236,7 +236,7 @@ TEST(FirmwareLog, ChangesInCyclesBetweenRowsAreNotADeadTime) {
 
 /// Log with a gyroscope that reads 1 + `scale` times the yaw rate, and a heading with this noise.
 DrivingLog log_of_gyroscope(double scale, double heading_std_rad) {
-  const DrivingLog fast = fast_drive(25.0);
+  const DrivingLog fast = fast_drive(12.5);
   const std::vector<State<double>> states = motion_of(fast);
   Random random(4, 2);
   return thinned(fast, 5, {LogChannel::kHeading, LogChannel::kSpeed, LogChannel::kYawRate},
@@ -245,7 +245,7 @@ DrivingLog log_of_gyroscope(double scale, double heading_std_rad) {
                    if (channel == LogChannel::kHeading)
                      return exact + heading_std_rad * random.normal();
                    const bool is_scaled = channel == LogChannel::kYawRate;
-                   return (is_scaled ? 1.0 + scale : 1.0) * exact + 0.003 * random.normal();
+                   return (is_scaled ? 1.0 + scale : 1.0) * exact + 0.0021 * random.normal();
                  });
 }
 

@@ -42,7 +42,7 @@ void move_readings(const std::vector<State<double>>& before,
 /// 5 s, the commanded wheel forces are reversed in every second interval of 3 s.
 DrivingLog drive_with(const Plant<double>& plant, ExtraForces extra, bool reverses = false,
                       double rate_hz = 100.0, const SensorNoise& noise = {},
-                      double duration_s = 25.0) {
+                      double duration_s = 12.5) {
   Random random(8, 5);
   DrivingLog log = simulate_log(
       plant, robot(), {.duration_s = duration_s, .rate_hz = rate_hz, .drive = 8}, noise, random);
@@ -69,7 +69,7 @@ TEST(ForceLog, FindsASlope) {
   slope[ExtraForce::kSlopeX] = 0.1;
   slope[ExtraForce::kSlopeY] = -0.15;
   const Identification result =
-      identified(drive_with(plant(t), slope, false, 50.0, kPreciseSensors, 16.0));
+      identified(drive_with(plant(t), slope, false, 50.0, kVeryPreciseSensors, 8.0));
   EXPECT_TRUE(has_finding(result, "slope"));
   EXPECT_FALSE(has_finding(result, "model-inadequate"));
   expect_estimated(result, "slope.x_mps2", 0.1);
@@ -87,7 +87,8 @@ TEST(ForceLog, FindsStribeckFriction) {
   stribeck[ExtraForce::kSurgeStribeckSpeed] = 0.2;
   IdentifyOptions options;
   options.yaw_family = {.family = Family::kPower, .requested = true};
-  const Identification result = identified(drive_with(robot_plant, stribeck), options);
+  const Identification result =
+      identified(drive_with(robot_plant, stribeck, false, 100.0, kPreciseSensors), options);
   EXPECT_TRUE(has_finding(result, "stribeck-friction"));
   EXPECT_FALSE(has_finding(result, "model-inadequate"));
   expect_recovered(result, ParameterId::kMassNorm, robot_plant.mass_norm, 4.5);
@@ -112,7 +113,7 @@ TEST_P(FoundForce, IsEstimatedBesideTheParameters) {
   const auto& [name, truth, code, forces] = GetParam();
   const Truth& t = kTruths[1];
   const Identification result =
-      identified(drive_with(plant(t), forces, true, 50.0, kPreciseSensors, 16.0), power_law());
+      identified(drive_with(plant(t), forces, true, 50.0, kVeryPreciseSensors, 8.0), power_law());
   EXPECT_TRUE(has_finding(result, code));
   EXPECT_FALSE(has_finding(result, "model-inadequate"));
   expect_estimated(result, name, truth);
@@ -146,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ForceLog, FindsTheSagOfACommonSupply) {
   constexpr double kSag = 0.08;  // k
   const Truth& t = kTruths[1];
-  DrivingLog log = drive_with(plant(t), {}, true, 50.0, kPreciseSensors, 16.0);
+  DrivingLog log = drive_with(plant(t), {}, true, 50.0, kVeryPreciseSensors, 8.0);
   const std::vector<State<double>> before = motion_with(log, plant(t), {});
   double largest = 0.0;
   std::vector<SideForces<double>> commands;

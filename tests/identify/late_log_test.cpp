@@ -22,12 +22,17 @@ namespace {
 constexpr double kStep_s = 0.02;  // row spacing of precise_drive()
 
 DrivingLog precise_drive(const Truth& t) {
-  return drive(t, 8, {.duration_s = 12.0, .rate_hz = 1.0 / kStep_s}, kVeryPreciseSensors);
+  return drive(t, 8, {.duration_s = 6.0, .rate_hz = 1.0 / kStep_s}, kMostPreciseSensors);
 }
 
 class LateLogs : public FitOfInstance {};
 INSTANTIATE_TEST_SUITE_P(Short, LateLogs, ::testing::Values(false));
 INSTANTIATE_TEST_SUITE_P(Long, LateLogs, ::testing::Values(true));
+
+/// precise_drive() of twice the duration, with more noise.
+DrivingLog long_drive(const Truth& t) {
+  return drive(t, 8, {.duration_s = 12.0, .rate_hz = 1.0 / kStep_s}, kVeryPreciseSensors);
+}
 
 /// Returns the log with the steering command moved to `rows` rows earlier: the steering acts late.
 DrivingLog with_late_steering(DrivingLog log, std::size_t rows) {
@@ -40,7 +45,7 @@ DrivingLog with_late_steering(DrivingLog log, std::size_t rows) {
 TEST(LateLog, SeparatesASteeringDeadTimeFromServoLag) {
   constexpr std::size_t kRows = 4;
   TrialData data;
-  data.logs = {with_late_steering(precise_drive(kTruths[1]), kRows)};
+  data.logs = {with_late_steering(long_drive(kTruths[1]), kRows)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   expect_estimated(*result, "steering.delay_s", kStep_s * kRows);
@@ -122,7 +127,7 @@ TEST(LateLog, FindsACommandDelayOfAFractionOfARow) {
   // The commands are late by 2.25 rows of 0.04 s, and the servo is at its rate limit after many
   // changes of the command.
   TrialData data;
-  data.logs = {with_late_commands(drive(kTruths[1], 8, {.duration_s = 20.0}, kPreciseSensors),
+  data.logs = {with_late_commands(drive(kTruths[1], 8, {.duration_s = 10.0}, kVeryPreciseSensors),
                                   kTruths[1], 4, 9)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
@@ -138,7 +143,7 @@ TEST(LateLog, FindsACommandDelayOfAFractionOfARow) {
 TEST(LateLog, KeepsAMotorLagOfTheVehicleFileFixed) {
   constexpr double kLag_s = 0.08;
   TrialData data;
-  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 12.0, .rate_hz = 50.0})};
+  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 6.0, .rate_hz = 50.0})};
   Vehicle vehicle = robot();
   vehicle.motor_time_constant_s = kLag_s;
   const auto result = identify(vehicle, data, {}, {});
@@ -283,7 +288,7 @@ TEST_P(LateLogs, AllowsForSpeedAndYawRateThatWereSmoothedAfterTheDrive) {
   constexpr std::size_t kReach = 4;
   const Truth& t = kTruths[1];
   TrialData data;
-  data.logs = {precise_drive(t)};
+  data.logs = {long_drive(t)};
   for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
     data.logs.front() = with_centred_mean(std::move(data.logs.front()), channel, kReach);
   }
@@ -570,8 +575,8 @@ TEST_P(LateLogs, FindsAServoThatIsSlowerThanTheVehicleFileSays) {
   Plant<double> slow = plant(t);
   slow.steering_max_rate_radps = kRate_radps;
   Random random(8, 5);
-  DrivingLog log = simulate_log(slow, robot(), {.duration_s = 20.0, .rate_hz = 50.0, .drive = 8},
-                                kPreciseSensors, random);
+  DrivingLog log = simulate_log(slow, robot(), {.duration_s = 10.0, .rate_hz = 50.0, .drive = 8},
+                                kVeryPreciseSensors, random);
   expect_found(std::move(log), t, "steering.max_rate_radps", kRate_radps, "servo-rate", options());
 }
 
@@ -617,7 +622,7 @@ TEST(LateLog, DetectsASteeringCommandThatIsTheMeasuredAngle) {
 }
 
 /// Smooth commands, with a row every `step_s`.
-DrivingLog smooth_commands(double step_s, double duration_s = 20.0) {
+DrivingLog smooth_commands(double step_s, double duration_s = 10.0) {
   DrivingLog log;
   log.steering_command_rad.emplace();
   const auto rows = static_cast<std::size_t>(duration_s / step_s);
@@ -635,7 +640,7 @@ DrivingLog smooth_commands(double step_s, double duration_s = 20.0) {
 /// Simulates the vehicle with the commands of `fast`. Returns a log with every `every`-th row:
 /// commands and measurements with noise of the standard deviation `noise_std` (m/s, rad/s, rad).
 DrivingLog measured_rows(const DrivingLog& fast, const Plant<double>& vehicle, std::size_t every,
-                         double noise_std = 0.007) {
+                         double noise_std = 0.005) {
   std::vector<State<double>> states;
   replay<double>(LogSignals(fast), 0, fast.rows(), vehicle, nullptr, 0.002, {},
                  [&](std::size_t, const State<double>& s) { states.push_back(s); });
@@ -681,7 +686,7 @@ std::vector<double> on_lines(const std::vector<double>& signal, std::size_t rows
 /// Log with rows every 20 ms and commands that are held for `rows` times 4 ms. They change between
 /// the rows unless `rows` is a multiple of 5.
 DrivingLog sampled_steps(std::size_t rows) {
-  DrivingLog fast = smooth_commands(0.004, 30.0);
+  DrivingLog fast = smooth_commands(0.004, 15.0);
   hold_commands(fast, rows);
   return measured_rows(fast, plant(kTruths[1]), 5);
 }
@@ -713,7 +718,7 @@ void expect_finds_half_of_changes_between_rows(std::size_t rows_per_speed) {
   const Truth& t = kTruths[1];
   Plant<double> slow_servo = plant(t);
   slow_servo.steering_time_constant_s = 0.15;
-  DrivingLog fast = smooth_commands(0.01, 60.0);
+  DrivingLog fast = smooth_commands(0.01, 30.0);
   hold_commands(fast, 131);
   DrivingLog log = measured_rows(fast, slow_servo, 2);
   Measured& speed = *log[LogChannel::kSpeed];
@@ -744,7 +749,7 @@ TEST(LateLog, FindsChangesBetweenRowsAlthoughTheSpeedIsSlow) {
 TEST(LateLog, GivesNoIntervalToAServoThatIsFastForTheRows) {
   Plant<double> vehicle = plant(kTruths[1]);
   vehicle.steering_time_constant_s = 0.06;
-  DrivingLog fast = smooth_commands(0.01, 60.0);
+  DrivingLog fast = smooth_commands(0.01, 30.0);
   hold_commands(fast, 113);
   TrialData data;
   data.logs = {measured_rows(fast, vehicle, 10)};
@@ -761,7 +766,7 @@ TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithAMotorLag) {
   constexpr double kLag_s = 0.1;
   constexpr std::size_t kRowsHeld = 163;
   const Truth& t = kTruths[1];
-  DrivingLog fast = smooth_commands(0.004, 30.0);
+  DrivingLog fast = smooth_commands(0.004, 15.0);
   hold_commands(fast, kRowsHeld);
   DrivingLog lagged = fast;
   for (std::vector<double>* const force : {&lagged.force_left, &lagged.force_right}) {
@@ -795,7 +800,7 @@ TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithBackEmf) {
   Plant<double> geared = plant(t);
   geared.back_emf_s_per_m = kBackEmf_s_per_m;
   TrialData data;
-  data.logs = {measured_rows(fast, geared, 5)};
+  data.logs = {measured_rows(fast, geared, 5, 0.007)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "changes-between-rows"));
@@ -815,9 +820,9 @@ TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithCoulombFriction) {
   Plant<double> rubbing = plant(t);
   rubbing.surge.coulomb = 0.3;
   rubbing.yaw.coulomb = kYawCoulomb_m;
-  const DrivingLog fast = drive(t, 8, {.duration_s = 40.0, .rate_hz = 250.0});
+  const DrivingLog fast = drive(t, 8, {.duration_s = 20.0, .rate_hz = 250.0});
   TrialData data;
-  data.logs = {measured_rows(fast, rubbing, 13, 0.011)};
+  data.logs = {measured_rows(fast, rubbing, 13, 0.0078)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "changes-between-rows"));
@@ -900,7 +905,7 @@ INSTANTIATE_TEST_SUITE_P(Long, ForceImbalance, ::testing::Values(0.05, -0.1));
 TEST(LargeForceImbalance, WithdrawsTheIntervals) {
   constexpr double kImbalance = 0.3;
   TrialData data;
-  data.logs = {precise_drive(kTruths[1])};
+  data.logs = {long_drive(kTruths[1])};
   for (double& force : data.logs[0].force_left) force /= 1.0 - kImbalance;
   for (double& force : data.logs[0].force_right) force /= 1.0 + kImbalance;
   const auto result = identify(robot(), data, power_law(), {});
@@ -960,7 +965,7 @@ class ForceExponent : public ::testing::TestWithParam<double> {};
 TEST_P(ForceExponent, IsFound) {
   const double p = GetParam();
   const Truth& truth = kTruths[1];
-  DrivingLog log = drive(truth, 8, {.duration_s = 30.0, .rate_hz = 40.0});
+  DrivingLog log = drive(truth, 8, {.duration_s = 15.0, .rate_hz = 40.0}, kPreciseSensors);
   for (auto* const forces : {&log.force_left, &log.force_right}) {
     for (double& force : *forces) {
       force = std::copysign(std::pow(std::abs(force), 1.0 / p), force);

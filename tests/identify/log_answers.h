@@ -84,11 +84,11 @@ inline constexpr double kSimulationStep_s = 0.002;
 /// for steps of kSimulationStep_s.
 inline DrivingLog measured_behind_lag(DrivingLog log, const Plant<double>& vehicle, double lag_s,
                                       std::uint64_t seed, bool from_rest) {
-  const std::map<LogChannel, double> noise{{LogChannel::kX, 0.02},
-                                           {LogChannel::kY, 0.02},
-                                           {LogChannel::kHeading, 0.01},
-                                           {LogChannel::kSpeed, 0.01},
-                                           {LogChannel::kYawRate, 0.01}};
+  const std::map<LogChannel, double> noise{{LogChannel::kX, 0.014},
+                                           {LogChannel::kY, 0.014},
+                                           {LogChannel::kHeading, 0.007},
+                                           {LogChannel::kSpeed, 0.007},
+                                           {LogChannel::kYawRate, 0.007}};
   const std::vector<double> left = log.force_left;
   const std::vector<double> right = log.force_right;
   log.force_left = behind_motors(log, left, lag_s, from_rest ? 0.0 : left.front());
@@ -108,7 +108,7 @@ inline DrivingLog measured_behind_lag(DrivingLog log, const Plant<double>& vehic
 
 /// measured_behind_lag() of the log of drive().
 inline DrivingLog drive_with_lag(const Truth& t, std::uint64_t seed, double lag_s,
-                                 DrivePlan plan = {.duration_s = 20.0}, bool from_rest = false) {
+                                 DrivePlan plan = {.duration_s = 10.0}, bool from_rest = false) {
   return measured_behind_lag(drive(t, seed, plan), plant(t), lag_s, seed, from_rest);
 }
 

@@ -59,8 +59,9 @@ TEST(LogSample, LeadsToTheValuesOfLogsWithASlowServo) {
   TrialData data;
   // Each log has at least one window.
   for (std::uint64_t seed = 1; seed <= 2 * kSampleWindows; ++seed) {
-    data.logs.push_back(simulate_log(
-        slow, robot(), {.duration_s = 6.0, .rate_hz = 50.0, .drive = seed}, {}, random));
+    data.logs.push_back(simulate_log(slow, robot(),
+                                     {.duration_s = 3.0, .rate_hz = 50.0, .drive = seed},
+                                     kPreciseSensors, random));
     data.logs.back().file = std::to_string(seed);
   }
   const auto result = identify(robot(), data, power_law(), {});

@@ -223,7 +223,8 @@ TEST_P(Logs, FindsALatencyOfCommandsAndOfTheirTimeStamps) {
   constexpr double kStep_s = 0.02;
   for (const int rows : {-2, 3}) {
     TrialData data;
-    data.logs = {drive(kTruths[1], 8, {.duration_s = 8.0, .rate_hz = 1.0 / kStep_s})};
+    data.logs = {
+        drive(kTruths[1], 8, {.duration_s = 4.0, .rate_hz = 1.0 / kStep_s}, kPreciseSensors)};
     move_commands(data.logs[0], rows);
     const auto result = identify(robot(), data, options(), {});
     ASSERT_TRUE(result);
@@ -239,7 +240,7 @@ TEST_P(Logs, FindsALatencyOfCommandsAndOfTheirTimeStamps) {
 TEST_P(Logs, FreesMotorLagAndDeadTimeTogether) {
   constexpr double kLag_s = 0.08;
   TrialData data;
-  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 12.0, .rate_hz = 50.0})};
+  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 6.0, .rate_hz = 50.0})};
   move_commands(data.logs[0], -2);
   const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
@@ -256,7 +257,7 @@ TEST_P(Logs, FreesMotorLagAndDeadTimeTogether) {
 TEST_P(Logs, SeparatesMotorLagFromADeadTime) {
   constexpr double kLag_s = 0.08;
   TrialData data;
-  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 12.0, .rate_hz = 50.0})};
+  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 6.0, .rate_hz = 50.0})};
   const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "motor.time_constant_s");
@@ -273,7 +274,7 @@ class LargeMotorLag : public ::testing::TestWithParam<double> {};
 TEST_P(LargeMotorLag, IsFoundInALogThatBeginsWithTheMotors) {
   const double lag_s = GetParam();
   TrialData data;
-  data.logs = {drive_with_lag(kTruths[1], 8, lag_s, {.duration_s = 12.0, .rate_hz = 50.0}, true)};
+  data.logs = {drive_with_lag(kTruths[1], 8, lag_s, {.duration_s = 6.0, .rate_hz = 50.0}, true)};
   add_row_of_rest(data.logs[0]);
   ASSERT_EQ(data.logs[0].force_left[0], 0.0);
   const auto result = identify(robot(), data, options_of_instance(), {});
@@ -350,7 +351,7 @@ TEST_P(Logs, FindsAndCompensatesALatencyOfTheSpeed) {
   const Truth& t = kTruths[0];
   constexpr std::size_t kLate = 5;  // rows of 20 ms
   TrialData data;
-  data.logs = {drive(t, 21, {.duration_s = 12.0, .rate_hz = 50.0}, kPreciseSensors)};
+  data.logs = {drive(t, 21, {.duration_s = 8.4, .rate_hz = 50.0}, kVeryPreciseSensors)};
   std::vector<double>& speed = data.logs[0][LogChannel::kSpeed]->value;
   std::rotate(speed.rbegin(), speed.rbegin() + kLate, speed.rend());
   std::fill(speed.begin(), speed.begin() + kLate, speed[kLate]);
@@ -379,7 +380,7 @@ DrivingLog commanded_early(DrivingLog log, std::size_t rows) {
 
 TEST_P(Logs, ReportsTheActuatorsIfAllSensorsAreDelayed) {
   const DrivingLog log =
-      drive(kTruths[0], 22, {.duration_s = 12.0, .rate_hz = 50.0}, kPreciseSensors);
+      drive(kTruths[0], 22, {.duration_s = 6.0, .rate_hz = 50.0}, kVeryPreciseSensors);
   TrialData data;
   data.logs = {commanded_early(log, 3)};
   const auto result = identify(robot(), data, options(), {});

@@ -20,9 +20,11 @@ double stop_rad() { return radians(robot().steering_max_deg); }
 /// Log of a vehicle whose wheels point to the angle `angle_at`(c) at the steering command c. The
 /// commands reach the stop. Forces are equal left and right, so the motion hardly shows the scale
 /// of the angles.
-DrivingLog drive_with_linkage(const std::function<double(double)>& angle_at) {
+DrivingLog drive_with_linkage(const std::function<double(double)>& angle_at,
+                              double duration_s = 15.0) {
   constexpr double kAmplification = 1.6;
-  DrivingLog log = drive(kTruth, 8, {.duration_s = 30.0, .rate_hz = 50.0}, kVeryPreciseSensors);
+  DrivingLog log =
+      drive(kTruth, 8, {.duration_s = duration_s, .rate_hz = 50.0}, kMostPreciseSensors);
   for (double& command_rad : *log.steering_command_rad) {
     command_rad = std::clamp(kAmplification * command_rad, -stop_rad(), stop_rad());
   }
@@ -33,11 +35,11 @@ DrivingLog drive_with_linkage(const std::function<double(double)>& angle_at) {
   std::ranges::transform(*log.steering_command_rad, wheels.steering_command_rad->begin(), angle_at);
   Plant<double> without_stop = plant(kTruth);
   without_stop.steering_max_rad = 1.0;
-  const std::pair<LogChannel, double> noise[] = {{LogChannel::kX, 0.02},
-                                                 {LogChannel::kY, 0.02},
-                                                 {LogChannel::kHeading, 0.00873},
-                                                 {LogChannel::kSpeed, 0.01},
-                                                 {LogChannel::kYawRate, 0.00436}};
+  const std::pair<LogChannel, double> noise[] = {{LogChannel::kX, 0.014},
+                                                 {LogChannel::kY, 0.014},
+                                                 {LogChannel::kHeading, 0.0061},
+                                                 {LogChannel::kSpeed, 0.007},
+                                                 {LogChannel::kYawRate, 0.0031}};
   Random random(3, 4);
   replay<double>(LogSignals(wheels), 0, log.rows(), without_stop, nullptr, kSimulationStep_s, {},
                  [&](std::size_t row, const State<double>& state) {
@@ -95,7 +97,7 @@ double curved(double command_rad, double k) {
 TEST(SteeringLog, FindsACurvedLinkage) {
   constexpr double kCurve = 0.2;
   const Identification result =
-      fit_of(drive_with_linkage([](double c) { return curved(c, kCurve); }));
+      fit_of(drive_with_linkage([](double c) { return curved(c, kCurve); }, 30.0));
   EXPECT_TRUE(has_finding(result, "steering-curve"));
   EXPECT_FALSE(has_finding(result, "steering-dead-band"));
   EXPECT_FALSE(has_finding(result, "model-inadequate"));
@@ -118,7 +120,7 @@ TEST(SteeringLog, IncludesTheScaleOfACurvedLinkageInTheIntervals) {
 /// The angles are right to the right, so their mean is not right.
 TEST(SteeringLog, IncludesTheScaleOfAnAsymmetryInTheIntervals) {
   const Identification result =
-      fit_of(drive_with_linkage([](double c) { return c > 0.0 ? 1.1 * c : c; }));
+      fit_of(drive_with_linkage([](double c) { return c > 0.0 ? 1.1 * c : c; }, 21.0));
   EXPECT_TRUE(has_finding(result, "steering-asymmetry"));
   expect_term(result, "steering.asymmetry", 0.05 / 1.05);
   expect_vehicle(result);
