@@ -78,7 +78,9 @@ def pipeline(folder):
         os.symlink(SOURCE / name, Path(folder, name))
     c3 = "configs/paper/scenarios/c3_heading_steps.json"
     loop = "--model out/model.json --gains out/gains.json"
-    short = {"global_evaluations": 20, "local_evaluations": 5, "draws": 2, "judged_draws": 4, "scenarios": [c3]}
+    turn = json.loads(Path(folder, c3).read_text())
+    Path(folder, "scenario_turn.json").write_text(json.dumps({**turn, "duration_s": 8, "guidance": {"type": "heading", "steps": [{"t_s": 0, "psi_deg": 30}]}}))
+    short = {"global_evaluations": 20, "local_evaluations": 5, "draws": 2, "judged_draws": 4, "scenarios": ["scenario_turn.json"]}
     goals = {"goals": [{"at_most": {"settling_time_s": 6}}, {"at_most": {"overshoot_deg": 1}, "soft": True}], **short,
              "observer": {"bandwidth_radps": [0.5, 5]},
              "open": {"mass_factors": [1, 1.2], "wheel_forces": [{"min": -1, "max": 1}]}}
