@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,15 @@ class Honesty : public ::testing::Test {
     const std::string begin = "id=\"data\">";
     const std::size_t start = html.find(begin) + begin.size();
     return Json::parse(html.substr(start, html.find("</script>", start) - start));
+  }
+  /// Copies the first 800 lines of a synthetic log and returns the path.
+  std::string first_rows_of(const std::string& name) const {
+    std::istringstream all(read_all(AWMR_SOURCE_DIR "/datasets/synthetic/" + name));
+    std::string rows;
+    std::string line;
+    for (int i = 0; i < 800 && std::getline(all, line); ++i) rows += line + "\n";
+    write_all(path(name), rows);
+    return path(name);
   }
   TemporaryDirectory directory_;
 
@@ -279,8 +289,8 @@ nlohmann::json without_inputs(const Json& document) {
 }
 
 TEST_F(Honesty, NoNumberDependsOnTheOrderOfFiles) {
-  const std::string first = "datasets/synthetic/drive_1.csv";
-  const std::string second = "datasets/synthetic/drive_2.csv";
+  const std::string first = first_rows_of("drive_1.csv");
+  const std::string second = first_rows_of("drive_2.csv");
   const std::pair<std::string, std::string> orders[] = {{first, second}, {second, first}};
   std::vector<nlohmann::json> fits, checks, gains;
   for (const auto& [one, other] : orders) {

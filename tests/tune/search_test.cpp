@@ -584,6 +584,8 @@ TEST(Observed, AnObserverCompensatesAConstantDisturbance) {
 
   options.observer->yaw_max_m = 0.02;
   options.observer->bandwidth_radps = {3.0, 3.0};
+  options.global_evaluations = 20;
+  options.local_evaluations = 10;
   const Result<Tuning> held = tune(paper_model(), options);
   ASSERT_TRUE(held) << to_text(held.error());
   EXPECT_DOUBLE_EQ(held->gains.observer.bandwidth_radps, 3.0);
