@@ -213,7 +213,7 @@ TEST(Families, OfMotorsThatLagLeaveTheMassRightWhereOnlyTheSpeedIsMeasured) {
 /// Log of a drive that never coasts. The vehicle has the resistances of `vehicle`, and motors with
 /// the time constant `lag_s`.
 DrivingLog driven_throughout(const Plant<double>& vehicle, double lag_s, std::uint64_t seed) {
-  DrivingLog log = drive(kTruths[1], seed, {.duration_s = 10.0, .rate_hz = 25.0});
+  DrivingLog log = drive(kTruths[1], seed, {.duration_s = 20.0, .rate_hz = 25.0});
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
     log[channel].reset();
   }
