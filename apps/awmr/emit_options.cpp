@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "awmr/core/input_file.h"
+#include "awmr/core/json.h"
+#include "awmr/core/json_document.h"
 #include "awmr/core/provenance.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/scenario.h"
@@ -83,11 +85,15 @@ Result<EmitInputs> emit_inputs(const std::filesystem::path& model,
                                const std::filesystem::path& gains) {
   AWMR_ASSIGN_OR_RETURN(const InputFile model_input, input_file(model));
   AWMR_ASSIGN_OR_RETURN(const InputFile gains_input, input_file(gains));
-  AWMR_ASSIGN_OR_RETURN(std::optional<CertifiedGains> certificate, read_certificate(gains));
-  return EmitInputs{.model_sha256 = model_input.sha256,
-                    .gains_sha256 = gains_input.sha256,
-                    .gains_file = gains.filename().string(),
-                    .certificate = std::move(certificate)};
+  AWMR_ASSIGN_OR_RETURN(const Json gains_json, read_json_file(gains));
+  EmitInputs inputs{
+      .model_sha256 = model_input.sha256,
+      .gains_sha256 = gains_input.sha256,
+      .gains_file = gains.filename().string(),
+      .has_gains_of_another_model = !is_made_from(gains_json, model_input.sha256).value_or(true)};
+  if (inputs.has_gains_of_another_model) return inputs;
+  AWMR_ASSIGN_OR_RETURN(inputs.certificate, read_certificate(gains));
+  return inputs;
 }
 
 }  // namespace awmr::cli

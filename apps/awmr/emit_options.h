@@ -16,8 +16,8 @@ namespace awmr::cli {
 void add_emit_options(CLI::App& command, EmitOptions& options);
 
 /// Returns the origin of the firmware's parameters: the hashes of model and gains file, the name of
-/// the gains file, and the robustness certificate in it. Errors: those of input_file() and
-/// read_certificate().
+/// the gains file, and its robustness certificate. Gains that were tuned with another model have no
+/// certificate. Errors: those of input_file(), read_json_file() and read_certificate().
 Result<EmitInputs> emit_inputs(const std::filesystem::path& model,
                                const std::filesystem::path& gains);
 

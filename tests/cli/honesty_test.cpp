@@ -119,6 +119,27 @@ TEST_F(Honesty, GainsOfAnotherModelAreNamedByEveryCommandThatTakesThem) {
   }
 }
 
+TEST_F(Honesty, TheHeaderHasNoCertificateOfGainsOfAnotherModel) {
+  const auto header_of = [&](const char* model, const char* options) {
+    const std::string folder = path(model) + options;
+    EXPECT_EQ(awmr(fmt::format("emit --model {} --gains {} {} -o {}", kept(model),
+                               kept("gains.json"), options, folder))
+                  .exit_code,
+              0);
+    return read_all(folder + "/awmr_params.h");
+  };
+  constexpr const char* kUnchecked = "stability with this model was not checked";
+  for (const char* options : {"", "--header-only"}) {
+    const std::string own = header_of("model.json", options);
+    EXPECT_THAT(own, HasSubstr("worst case over the model's parameters"));
+    EXPECT_THAT(own, Not(HasSubstr(kUnchecked)));
+    const std::string other = header_of("other.json", options);
+    EXPECT_THAT(other, Not(HasSubstr("damping")));
+    EXPECT_THAT(other, Not(HasSubstr("delay margin")));
+    EXPECT_THAT(other, HasSubstr(kUnchecked));
+  }
+}
+
 TEST_F(Honesty, TuneWarnsOfABaselineOfAnotherModel) {
   const auto tune = [&](const char* model) {
     return fmt::format("tune --nominal --config {} --model {} --baseline {} -o {}",

@@ -70,6 +70,26 @@ double zero_of(const F& rising) {
   return lo;
 }
 
+TEST(CommandSpeed, IsAtMostTheHighestSpeedOfTheTrialsElseThatOfFullForce) {
+  Model model = paper_robot();
+  const auto largest_mps = [&] {
+    const auto parameters = autopilot_parameters(model, kPaperGains, paper_inputs(), {});
+    EXPECT_THAT(autopilot_header(*parameters), HasSubstr("#define AWMR_COMMAND_SPEED_MAX_MPS "));
+    return static_cast<double>(parameters->command_speed_max_mps);
+  };
+  // g1(u) = 4 F'max
+  const double reachable_mps = std::pow(4.0 / 1.3268, 1.0 / 0.8933);
+  EXPECT_NEAR(largest_mps(), reachable_mps, 1e-5);
+  for (const double speed_mps : {0.8, 1.66, 1.2}) {
+    model.record.trials.push_back({.kind = TrialKind::kSurge, .input = 1.0, .measured = speed_mps});
+  }
+  EXPECT_NEAR(largest_mps(), 1.66, 1e-6);
+  // A speed that is a fault cannot be commanded.
+  model.record.trials.push_back({.kind = TrialKind::kSurge, .input = 1.0, .measured = 100.0});
+  const auto parameters = autopilot_parameters(model, kPaperGains, paper_inputs(), {});
+  EXPECT_EQ(parameters->command_speed_max_mps, parameters->block.safety.speed_max_mps);
+}
+
 /// While a vehicle turns by 180 deg with the radius R, the distance times the heading error beyond
 /// e0 adds up to R (pi - e0)^2/2. The limit is this value plus 10 m rad for the beginning of the
 /// turn. Computed here independently of turn_of_vehicle() and turn_of_law().

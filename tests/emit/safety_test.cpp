@@ -295,6 +295,12 @@ TEST_F(SafeSketches, HoldTheHeadingAfterSevenHundredTurns) {
   EXPECT_EQ(seen["fault"], 0);
 }
 
+TEST_F(SafeSketches, ChangeTheDirectionOfAMotorOnlyWithThePwmAtZero) {
+  auto seen = drive(*paper_, "HeadingHold reverse");
+  EXPECT_GE(seen["reversals"], 2);
+  EXPECT_EQ(seen["driven_reversals"], 0);
+}
+
 TEST_F(SafeSketches, RecordNoReadingsOfARejectedSensor) {
   auto good = drive(*paper_, "RecordTrials none");
   EXPECT_EQ(good["rows_broken"], 1);

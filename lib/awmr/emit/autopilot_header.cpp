@@ -27,7 +27,8 @@ constexpr std::string_view kIntro =
 #define AWMR_STEERING_MAX_TAN_HALF {}
 
 /* Largest measured speeds |u| (forward) and |v| (to the left), m/s, and yaw rates |r|, rad/s, that
-   are not a fault */
+   are not a fault: the ends of the resistance tables, which the motors cannot reach. For the largest
+   commanded speed see AWMR_COMMAND_SPEED_MAX_MPS */
 #define AWMR_SPEED_MAX_MPS {}
 #define AWMR_YAW_RATE_MAX_RADPS {}
 /* ms: largest age of heading and yaw rate, of speed and position, and of the last command; longest
@@ -36,6 +37,10 @@ constexpr std::string_view kIntro =
 #define AWMR_SPEED_TIMEOUT_MS {}UL
 #define AWMR_COMMAND_TIMEOUT_MS {}UL
 #define AWMR_STEP_TIMEOUT_MS {}UL
+/* Largest speed that the sketches accept from the operator, m/s: the highest speed of the surge
+   trials, because the model was not measured above it; without such trials, the speed at full
+   force */
+#define AWMR_COMMAND_SPEED_MAX_MPS {}
 /* Speed of the sketch WaypointFollowing, m/s: 1, or 60 % of the speed at full force if that is
    less */
 #define AWMR_ROUTE_SPEED_MPS {}
@@ -190,6 +195,7 @@ std::string autopilot_header(const AutopilotParameters& parameters) {
                   float_literal(static_cast<double>(block.safety.yaw_rate_max_radps)),
                   block.safety.heading_timeout_ms, block.safety.speed_timeout_ms,
                   block.safety.command_timeout_ms, block.safety.step_timeout_ms,
+                  float_literal(static_cast<double>(parameters.command_speed_max_mps)),
                   float_literal(static_cast<double>(parameters.route_speed_mps)),
                   float_literal(static_cast<double>(parameters.on_course_rad)),
                   float_literal(static_cast<double>(parameters.off_course_mrad)),

@@ -10,6 +10,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"
+#include "awmr/model/steady.h"
 #include "awmr/simulate/simulate.h"
 #include "macros.h"
 #include "resistance_tables.h"
@@ -165,6 +166,22 @@ Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, std::optional<double
   return {};
 }
 
+/// Returns AWMR_COMMAND_SPEED_MAX_MPS: the highest speed of the surge trials, at which the
+/// resistance was measured; without such trials, the steady speed at full force. At most `limit`,
+/// the largest speed that is not a fault.
+float command_speed_max_mps(const Plant<double>& plant, const Model& model, double full_force,
+                            float limit) {
+  std::optional<double> fastest_mps;
+  for (const TrialPoint& trial : model.record.trials) {
+    if (trial.kind != TrialKind::kSurge) continue;
+    fastest_mps = std::max(fastest_mps.value_or(0.0), trial.measured);
+  }
+  if (!fastest_mps) {
+    fastest_mps = steady_rate(plant.surge, full_force, 4.0 * plant.back_emf_s_per_m);
+  }
+  return fastest_mps ? std::min(single(*fastest_mps), limit) : limit;
+}
+
 void set_position_filter(const Vehicle& vehicle, AutopilotParameters& parameters) {
   const double latency_s = vehicle.sensors.position_latency_s.value_or(kUsualFixLatency_s);
   parameters.position = position_filter<float>(
@@ -245,6 +262,8 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const ModeG
   parameters.steering_max_tan_half = parameters.block.constants.allocation.q_max;
   parameters.block.safety.speed_max_mps = largest_below(surge.top);
   parameters.block.safety.yaw_rate_max_radps = largest_below(yaw.top);
+  parameters.command_speed_max_mps =
+      command_speed_max_mps(plant, model, full_force, parameters.block.safety.speed_max_mps);
   if (options.resistance == ResistanceForm::kTable) {
     AWMR_RETURN_IF_ERROR(add_tables(surge, yaw, options.table_error, parameters));
   }

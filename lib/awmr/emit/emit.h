@@ -27,7 +27,11 @@ struct EmitInputs {
   std::string model_sha256;               ///< SHA-256 of the model file, lower-case hexadecimal
   std::string gains_sha256;               ///< SHA-256 of the gains file, lower-case hexadecimal
   std::string gains_file = "gains.json";  ///< name without directories
-  std::optional<CertifiedGains> certificate = {};  ///< robustness certificate of the gains, if any
+  /// Robustness certificate of the gains; absent if they have none, or are of another model.
+  std::optional<CertifiedGains> certificate = {};
+  /// True if the gains were tuned with another model, so that their stability with this model was
+  /// not checked. The header then states this in place of the certificate.
+  bool has_gains_of_another_model = false;
 };
 
 /// Returns the value of AWMR_PARAMS_SHA256, which identifies both input files: the SHA-256 of a
@@ -162,6 +166,7 @@ struct AutopilotParameters {
                                           ///< EmitOptions, or the error of a table that exceeds it
   float sample_time_s = 0.0F;             ///< AWMR_SAMPLE_TIME_S, s
   float route_speed_mps = 0.0F;           ///< AWMR_ROUTE_SPEED_MPS, m/s
+  float command_speed_max_mps = 0.0F;     ///< AWMR_COMMAND_SPEED_MAX_MPS, m/s
   double steady_error_rad = 0.0;          ///< heading error, rad, that remains if the forces of
                                           ///< left and right motors differ by 16 %
   float on_course_rad = 0.0F;             ///< AWMR_ON_COURSE_RAD, rad

@@ -75,8 +75,14 @@ std::string checks_text(const std::vector<Macro>& macros, const ModeGains& gains
 }
 
 /// Returns the worst cases of the heading loop in gains.json as comment lines: the smallest damping
-/// ratio and delay margin of each mode. Empty if gains.json has none.
-std::string certificate_text(const std::optional<CertifiedGains>& certificate) {
+/// ratio and delay margin of each mode. Empty if gains.json has none. For gains of another model:
+/// a line that they were not checked with this model.
+std::string certificate_text(const EmitInputs& inputs) {
+  if (inputs.has_gains_of_another_model) {
+    return "   The gains were tuned with another model: stability with this model was not "
+           "checked.\n";
+  }
+  const std::optional<CertifiedGains>& certificate = inputs.certificate;
   if (!certificate) return {};
   std::string text = fmt::format(
       "   Heading loop with {:g} s of latency, worst case over the model's parameters ({}):\n",
@@ -98,7 +104,7 @@ std::string intro_text(const Model& model, const EmitInputs& inputs) {
       "#define AWMR_PARAMS_H\n\n",
       comment_safe(model.vehicle.name), version(), comment_safe(file_name(model)),
       comment_safe(inputs.model_sha256), comment_safe(inputs.gains_file),
-      comment_safe(inputs.gains_sha256), certificate_text(inputs.certificate));
+      comment_safe(inputs.gains_sha256), certificate_text(inputs));
 }
 
 std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inputs) {

@@ -23,6 +23,7 @@ uint32_t millis();
 void delay(uint32_t ms);
 void pinMode(uint8_t pin, uint8_t mode);
 void digitalWrite(uint8_t pin, uint8_t level);
+int digitalRead(uint8_t pin);
 void analogWrite(uint8_t pin, int duty);
 inline void cli() {}
 inline void sei() {}

@@ -189,6 +189,18 @@ void drive_and_stop(double seconds) {
       static_cast<int>(safety.reason()), w.is_driven());
 }
 
+/// Drives forward, then turns by 180 deg in differential mode, in which one side drives backward.
+void reverse_a_side() {
+  World& w = world;
+  start_and_arm(0.2);
+  w.say("M 0\n");
+  w.say("S 0.3\n");
+  w.run(5);
+  w.say("H 170\n");
+  w.run(5);
+  printf("reversals=%d driven_reversals=%d\n", w.reversals, w.driven_reversals);
+}
+
 /// Arms, drives, and stops by the last of 14 commands that arrive in one packet on a line that is
 /// already full. The GPS sentences are `phase_ms` late.
 void fill_the_lines(uint32_t phase_ms) {
@@ -225,6 +237,7 @@ int main(int argc, char** argv) {
   if (what == "wrong") return drive_wrong(number, argc > 3 ? atof(argv[3]) : 1), 0;
   if (what == "turning") return start_turning(number), 0;
   if (what == "lines") return fill_the_lines(static_cast<uint32_t>(number)), 0;
+  if (what == "reverse") return reverse_a_side(), 0;
   if (what == "turns") return turn_often(number), 0;
   if (what == "drive") {
     if (argc > 3) world.mass_factor = atof(argv[3]);

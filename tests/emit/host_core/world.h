@@ -75,6 +75,7 @@ struct World {
   bool gps_bad_sum = false;
   std::string last_sentence;
   std::deque<std::pair<uint32_t, std::string>> on_the_way;
+  int reversals = 0, driven_reversals = 0;  // changes of a direction pin; of these, with PWM on
   // Operator.
   bool keeps = true;
   uint32_t keep_period_ms = 300;
@@ -250,7 +251,15 @@ void delay(uint32_t ms) {
   }
 }
 void pinMode(uint8_t, uint8_t) {}
-void digitalWrite(uint8_t pin, uint8_t level) { world.level[pin] = level; }
+void digitalWrite(uint8_t pin, uint8_t level) {
+  const int pwm = pin == 22 ? 44 : pin == 23 ? 45 : -1;
+  if (pwm >= 0 && level != world.level[pin]) {
+    ++world.reversals;
+    if (world.duty[pwm] != 0) ++world.driven_reversals;
+  }
+  world.level[pin] = level;
+}
+int digitalRead(uint8_t pin) { return world.level[pin]; }
 void analogWrite(uint8_t pin, int duty) { world.duty[pin] = duty; }
 
 static uint8_t bus_device, bus_address;

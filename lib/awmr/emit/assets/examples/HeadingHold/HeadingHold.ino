@@ -22,7 +22,7 @@ void obey() {
   const float value = command.value;
   if (command.word == awmr::CommandWord::kHeading && fabs(value) <= 3600.0f) {
     input.psi_ref_rad = value * 0.0174532925f;
-  } else if (command.word == awmr::CommandWord::kSpeed && fabs(value) < AWMR_SPEED_MAX_MPS) {
+  } else if (command.word == awmr::CommandWord::kSpeed && fabs(value) <= AWMR_COMMAND_SPEED_MAX_MPS) {
     input.u_ref_mps = value;
   } else if (command.word == awmr::CommandWord::kMode && (value == 0.0f || value == 1.0f || value == 2.0f)) {
     input.mode = static_cast<uint8_t>(value);

@@ -13,9 +13,14 @@ inline void begin_actuators() {
   begin_servo(2 * kServoCentreUs);
 }
 
-/* force: F' in [-1, 1]; the direction pin is high for a negative force. */
+/* force: F' in [-1, 1]; the direction pin is high for a negative force. Before a change of the
+   direction the PWM is set to 0, so that the old duty never drives the motor the other way. */
 inline void drive_motor(uint8_t pwm_pin, uint8_t direction_pin, float force) {
-  digitalWrite(direction_pin, force < 0.0f ? HIGH : LOW);
+  const uint8_t direction = force < 0.0f ? HIGH : LOW;
+  if (digitalRead(direction_pin) != direction) {
+    analogWrite(pwm_pin, 0);
+    digitalWrite(direction_pin, direction);
+  }
   const float size = force < 0.0f ? -force : force;
   analogWrite(pwm_pin, static_cast<int>(255.0f * size + 0.5f));
 }
