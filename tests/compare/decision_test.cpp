@@ -213,6 +213,29 @@ TEST(Decision, AnUndecidedLeadIsNotCalledBest) {
   EXPECT_THAT(verdict(), ::testing::HasSubstr("undecided: steering first on the four-wheel plant"));
 }
 
+TEST(Decision, NamesTheRuleThatPrefersOneOfTiedModes) {
+  Comparison comparison;
+  for (const YawMode mode : {YawMode::kDifferential, YawMode::kSteering}) {
+    ComparisonRow row{.scenario = "s", .mode = mode, .metrics = {}};
+    row.metrics.completed = true;
+    row.metrics.settling_time_s = 3.0;
+    row.metrics.heading_iae_degs = 50.0;
+    comparison.rows.push_back(row);
+  }
+  comparison.whole_samples = 1;
+  const auto one = [&] { return evaluate_scenarios(comparison, {}, 1).front(); };
+  EXPECT_EQ(one().ranking.front().tied_with.size(), 1U);
+  EXPECT_EQ(one().decision->kind(), DecisionKind::kLevel);
+  EXPECT_THAT(one().verdict, ::testing::Not(::testing::HasSubstr("is preferred")));
+  comparison.changes = {on_tyres({kSteering})};
+  EXPECT_EQ(one().decision->kind(), DecisionKind::kDecided);
+  EXPECT_THAT(one().decision->never_behind(), ElementsAre(kSteering));
+  EXPECT_THAT(one().verdict, ::testing::HasSubstr("differential and steering are tied"));
+  EXPECT_THAT(one().verdict,
+              ::testing::HasSubstr("steering is preferred, because only steering keeps a first "
+                                   "place"));
+}
+
 /// Comparison of differential and steering: one run each, with these settling times, s, and tyre
 /// works, m, of steering. Those of differential are 10 s and 0.2 m.
 Comparison by_two_metrics(double settling_time_s, double tyre_work) {

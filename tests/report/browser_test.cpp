@@ -236,6 +236,38 @@ TEST_F(ReportInBrowser, IsWholeWithoutGainsComparisonOrTurns) {
   EXPECT_THAT(page.at("shaded"), IsEmpty());
 }
 
+TEST_F(ReportInBrowser, BlockingFindingsAreTheFirstStepsAndTakeTheTickOfTheModel) {
+  const auto summary_with = [&](const Json& finding) {
+    const TemporaryDirectory directory;
+    Json model = Json::parse(read_all(file("model.json")));
+    if (!finding.is_null()) model["findings"].push_back(finding);
+    write_all(directory.path() / "model.json", model.dump());
+    write_all(directory.path() / "awmr_params.h", "");
+    for (const char* step : {"validate --model model.json -o validation.json", "report ."}) {
+      EXPECT_TRUE(succeeded(run_process(awmr(step), directory.path()))) << step;
+    }
+    const Json page = looked_at(directory.path() / "report.html", 1280);
+    EXPECT_THAT(page.at("errors"), IsEmpty()) << page.at("errors");
+    return page.at("summary");
+  };
+  const auto first_step = [](const Json& summary) {
+    return summary.at("steps").at(0).get<std::string>();
+  };
+  const Json plain = summary_with(nullptr);
+  EXPECT_EQ(plain.at("tones").at(0), "good");
+  EXPECT_THAT(first_step(plain), ::testing::HasSubstr("awmr_params.h"));
+  for (const char* code : {"no-interval", "model-inadequate", "power-law-inadequate"}) {
+    const Json summary = summary_with({{"file", "surge.csv"},
+                                       {"line", 0},
+                                       {"severity", "warning"},
+                                       {"code", code},
+                                       {"message", "an added finding"}});
+    EXPECT_EQ(summary.at("tones").at(0), "doubt") << code;
+    EXPECT_THAT(first_step(summary), ::testing::HasSubstr(code));
+    EXPECT_THAT(first_step(summary), ::testing::HasSubstr("identify again"));
+  }
+}
+
 TEST_F(ReportInBrowser, OnAPhoneNothingIsWiderThanThePageAndItOpensShort) {
   const Json& page = report_at(390);
   EXPECT_THAT(page.at("errors"), IsEmpty()) << page.at("errors");

@@ -60,7 +60,11 @@ function orphans() {
 /// The summary as it opens: what a user sees without scrolling.
 function look_at_summary() {
   const summary = document.querySelector("#summary");
+  const tiles = [...summary.querySelectorAll(".tiles li")];
+  const lists = summary.querySelectorAll("ol");
   return {tiles: summary.querySelectorAll(".tiles li").length, bottom: summary.getBoundingClientRect().bottom,
+    tones: tiles.map((one) => one.className), texts: tiles.map((one) => one.textContent),
+    steps: [...lists[lists.length - 1].children].map((one) => one.textContent),
     sketches: summary.querySelectorAll("svg[role=img][aria-label]").length, charts: summary.querySelectorAll(".plot").length,
     symbols: [...summary.querySelectorAll("th abbr[title]")].map((one) => one.textContent)};
 }

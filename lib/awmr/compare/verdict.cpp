@@ -210,9 +210,12 @@ std::string decision_text(const Decision& decision) {
     return fmt::format("; undecided{}{}{}{}", words.empty() ? "" : ": ", fmt::join(words, ", "),
                        incomplete, trials);
   }
-  return fmt::format("; {} a first place {}{}{}",
-                     listed(never_behind) + (never_behind.size() == 1 ? " keeps" : " keep"),
-                     fmt::join(words, ", "), incomplete, trials);
+  const bool is_preferred = never_behind.size() == 1 && decision.first.size() > 1;
+  return fmt::format(
+      "; {} a first place {}{}{}",
+      is_preferred ? fmt::format("{0} is preferred, because only {0} keeps", listed(never_behind))
+                   : listed(never_behind) + (never_behind.size() == 1 ? " keeps" : " keep"),
+      fmt::join(words, ", "), incomplete, trials);
 }
 
 }  // namespace

@@ -2,6 +2,43 @@
 
 const whereOf = (f) => (f.file ? `${f.file}${f.line ? `:${f.line}` : ""}` : "");
 
+/// Findings after which the model must be identified again, or the gains tuned again, before the
+/// vehicle is driven with them: the remedy of each code, as a warning or an error.
+const remedies = {
+  "not-identifiable": "record the trial that the finding names, and identify again",
+  "too-few-rows": "record more runs, and identify again",
+  "no-degrees-of-freedom": "record more runs, and identify again",
+  "exponent-at-bound": "choose another resistance family, and identify again",
+  "not-converged": "check the rows, and identify again",
+  "power-law-inadequate": "identify again with the resistance family that the finding names",
+  "family-by-coastdown": "identify again with the resistance family that the finding names",
+  "model-inadequate": "follow the finding, and identify again",
+  "estimates-disagree": "repeat the trials that disagree, and identify again",
+  "logs-disagree": "record under the conditions of use, and identify again",
+  "changed-in-log": "identify the parts of the log separately",
+  "held-out-misses": "identify a part of the log under one condition",
+  "speed-controlled": "log the commands that reach the motors, and identify again",
+  "no-interval": "follow the findings of identify, and identify again",
+  "unsettled": "make one of the changes that the finding lists, and tune again",
+  "unstable-gains": "tune again",
+};
+
+/// The findings that must be resolved before the vehicle is driven: every error, and the warnings
+/// with a remedy above. The first of each code. A missing interval is listed only without a cause.
+function blockingFindings(findings) {
+  const all = findings.filter((f) => f.severity === "error"
+    || (f.severity === "warning" && remedies[f.code]));
+  const first = all.filter((f, i) => all.findIndex((other) => other.code === f.code) === i);
+  const causes = first.filter((f) => f.code !== "no-interval");
+  return causes.length ? causes : first;
+}
+
+/// Sentence with the remedy of a blocking finding.
+function remedyStep({code}) {
+  const remedy = remedies[code] || `see its message and “awmr explain ${code}”`;
+  return `Before you drive, resolve “${code}”: ${remedy}.`;
+}
+
 /// Adds the three findings with the largest effect on the results.
 function firstFindings(parent, findings) {
   add(parent, "h2", "Findings");

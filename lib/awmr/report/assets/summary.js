@@ -32,14 +32,10 @@ function gainsTable(parent, gains) {
   }
 }
 
-/// The next steps for the user, the most useful first.
+/// The next steps for the user: first the remedies of blocking findings, then the most useful.
 function nextSteps(data) {
-  const steps = [];
   const {model, gains, validation, suggest} = data;
-  if (model.findings.some((f) => f.severity === "error" || f.code === "not-identifiable")) {
-    steps.push("The model is incomplete: record the trial that the finding “not-identifiable” " +
-      "names.");
-  }
+  const steps = blockingFindings(data.findings).map(remedyStep);
   if (data.header) steps.push("Include awmr_params.h (next to this page) in your sketch, or use " +
     "the sketches with the controller that awmr emit writes.");
   if (!gains) steps.push("Tune gains: awmr tune.");

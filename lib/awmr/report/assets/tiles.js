@@ -23,12 +23,14 @@ function unseenLogs({model, validation}) {
 
 /// Tile of the model's largest prediction error. It uses the first of these that exists: logs that
 /// were not used for the fit, logs of the fit, the trials, the comparison of drives with predicted
-/// drives.
+/// drives. The tile has no tick if a finding requires that the model is identified again.
 function modelTile(list, data) {
   const {validation} = data;
   if (!validation) return tile(list, "doubt", "Model error", "not validated",
     "awmr validate compares the model with data");
-  const tone = validation.passed === false ? "bad" : "good";
+  const blocking = blockingFindings(data.findings);
+  const tone = validation.passed === false ? "bad" : blocking.length ? "doubt" : "good";
+  const reason = blocking.length ? `; but ${blocking[0].code.replaceAll("-", " ")}` : "";
   const unseen = unseenLogs(data);
   const logs = unseen.length ? unseen : validation.logs || [];
   const source = unseen.length ? "not fitted" : "fitted";
@@ -42,14 +44,15 @@ function modelTile(list, data) {
       `largest RMS of ${trials.map(([kind]) => kind).join(", ")}, on the fitted trials`]);
   }
   const found = errors.filter(([error]) => isNumber(error)).sort((a, b) => b[0] - a[0])[0];
-  if (found) return tile(list, tone, "Model error", percent(found[0]), found[1]);
+  if (found) return tile(list, tone, "Model error", percent(found[0]),
+    found[1] + reason);
   const drives = validation.drives || [];
   if (!drives.length) return tile(list, tone, "Model error", validation.passed ? "validated"
-    : "not validated", validation.verdict || "");
+    : "not validated", (validation.verdict || "") + reason);
   const outside = drives.filter((drive) => !drive.inside).length;
-  tile(list, outside ? "bad" : "good", "Model against drives",
+  tile(list, outside ? "bad" : tone, "Model against drives",
     `${drives.length - outside} of ${drives.length} as predicted`,
-    `drives under the controller, over ${plural(drives[0].draws, "predicted drive")}`);
+    `drives under the controller, over ${plural(drives[0].draws, "predicted drive")}${reason}`);
 }
 
 /// Tile of the settling time with the baseline and the tuned gains: medians over drawn vehicles
@@ -92,6 +95,15 @@ const firstOf = (scenario) => (!scenario.decision
   ? scenario.ranking.filter((r) => r.rank === 1).map((r) => r.mode)
   : scenario.decision.kind === "undecided" ? [] : scenario.decision.never_behind);
 
+/// Text of the rule that prefers the best mode to the modes that are tied with it. Empty if it is
+/// tied with none.
+function preferredWords(ranked, best) {
+  const tied = distinct(ranked.flatMap((s) =>
+    (s.ranking.find((r) => r.mode === best && r.rank === 1) || {tied_with: []}).tied_with));
+  return tied.length ? `; tied with ${tied.join(" and ")}, but preferred, because it alone stays ` +
+    `first on another plant and with other weights and gains` : "";
+}
+
 /// Tile of the best mode: the only mode that is best in every ranked scenario, or "undecided".
 function modeTile(list, comparison) {
   const ranked = ((comparison || {}).scenarios || []).filter((s) => s.ranking.length);
@@ -102,7 +114,7 @@ function modeTile(list, comparison) {
   const all = ranked.length === 1
     ? `“${scenarioWords(ranked[0].name)}”` : `${ranked.length} scenarios`;
   if (alone.length === 1 && alone[0]) return tile(list, comparison.samples ? "good" : "doubt",
-    "Best mode", alone[0], `${all}; ${basis}`);
+    "Best mode", alone[0], `${all}${preferredWords(ranked, alone[0])}; ${basis}`);
   if (ranked.length > 1) {
     const wins = distinct(alone).filter(Boolean).map((mode) =>
       `${mode} first in ` +
