@@ -57,6 +57,7 @@ Result<Outcome> merge_recovery(const MergeCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Recovery recovery, recovery_of(merged.whole));
   AWMR_RETURN_IF_ERROR(make_directory(command.output));
   Outcome outcome{.summary = recovery_table(recovery),
+                  .findings = recovery.findings,
                   .document = recovery_text(recovery, merged.provenance)};
   AWMR_RETURN_IF_ERROR(write_document(command.output / "recover.json", outcome));
   return outcome;

@@ -10,8 +10,9 @@
 namespace awmr::cli {
 
 /// Replaces the options that findings and errors of `command` name (by option_text()). For example,
-/// "--as-is" of identify becomes "`identify/as_is` of project.json". An option without such a key
-/// gets the name of its command: "awmr compare --break-even".
+/// "--as-is" of identify becomes "`identify/as_is` of project.json", and "--family auto" becomes
+/// "`"identify": {"family": ["auto"]}` in project.json". An option without such a key gets the name
+/// of its command: "awmr compare --break-even".
 Result<Outcome> for_project(std::string_view command, Result<Outcome> step);
 
 }  // namespace awmr::cli

@@ -55,6 +55,7 @@ Result<Outcome> whole_outcome(const RecoverCommand& command, const RecoverPart& 
                               const Provenance& provenance) {
   AWMR_ASSIGN_OR_RETURN(const Recovery recovery, recovery_of(whole));
   Outcome outcome{.summary = recovery_table(recovery),
+                  .findings = recovery.findings,
                   .document = recovery_text(recovery, provenance)};
   AWMR_RETURN_IF_ERROR(write_document(command.output, outcome));
   return outcome;

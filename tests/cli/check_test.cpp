@@ -1,4 +1,5 @@
 /// `awmr check` reports missing and implausible values of a project before any fit.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -247,7 +248,7 @@ TEST_F(Check, ContradictionsOfTheTrialsNameTheUnitFix) {
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_THAT(result.err,
               AllOf(HasSubstr("surge.csv:2: tau_speed is"), HasSubstr("8-bit PWM counts"),
-                    HasSubstr("`columns` 'wheel_force="), HasSubstr("[contradiction]")));
+                    HasSubstr(R"(`"columns": {"wheel_force": ")"), HasSubstr("[contradiction]")));
   EXPECT_THAT(result.err, Not(HasSubstr("--column")));  // `check` has no option --column
 }
 
@@ -259,8 +260,33 @@ TEST_F(Check, MillisecondsOfEveryTrialAreNamed) {
   const ProcessResult result = awmr("check " + project());
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_THAT(result.out, HasSubstr("3 implausible"));
-  EXPECT_THAT(result.err, AllOf(HasSubstr("surge.csv:2:"), HasSubstr("turning.csv:2:"),
-                                HasSubstr("`columns` 'stop_time_s=\"stop_time_s\"*0.001'")));
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("surge.csv:2:"), HasSubstr("turning.csv:2:"),
+                    HasSubstr(R"(`"columns": {"stop_time_s": "\"stop_time_s\"*0.001"}`)")));
+}
+
+/// Trials without errors with g1 = 0.1 + 0.75 u and m' = 0.9: no power law describes the runs over
+/// 10 m. A vehicle that starts at u0 comes to rest after (0.9/0.75) ln(1 + 7.5 u0).
+TEST_F(Check, RunGivesTheFamilyAsTheJsonThatSelectsIt) {
+  std::string surge = "wheel_force,distance_m,elapsed_s\n";
+  for (int i = 1; i <= 12; ++i) {
+    const double wheel_force = 0.075 * i;
+    surge += fmt::format("{},10,{:.4f}\n", wheel_force, 7.5 / (4.0 * wheel_force - 0.1));
+  }
+  write_all(path("surge.csv"), surge);
+  write_all(path("coastdown.csv"),
+            "initial_speed_mps,stop_time_s\n0.8,2.335\n1.2,2.763\n1.6,3.078\n");
+  const std::string literal = R"("identify": {"family": ["surge=coulomb-linear"]})";
+  const ProcessResult first = run();
+  EXPECT_LE(first.exit_code, 1) << first.err;
+  EXPECT_THAT(first.err,
+              AllOf(HasSubstr("power-law-inadequate"), HasSubstr("use `" + literal + "`")));
+  nlohmann::ordered_json json = read("project.json");
+  json.update(nlohmann::ordered_json::parse("{" + literal + "}"));
+  write("project.json", json);
+  const ProcessResult second = run();
+  EXPECT_LE(second.exit_code, 1) << second.err;
+  EXPECT_THAT(second.err, Not(HasSubstr("power-law-inadequate")));
 }
 
 TEST_F(Check, AnUnreadableFileIsBadInput) {

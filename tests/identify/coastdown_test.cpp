@@ -449,6 +449,34 @@ TrialData undecided_runs_and_curves() {
   return data;
 }
 
+/// The same vehicle with 12 surge runs, without errors except for the rounding of the times to 0.1
+/// ms, so that the runs alone reject the power law.
+TrialData deciding_runs_and_curves() {
+  TrialData data = undecided_runs_and_curves();
+  data.surge->rows.clear();
+  for (int i = 0; i < 12; ++i) {
+    const double force = 0.3 + 0.3 * i;
+    const double elapsed_s = 1e-4 * std::round(1e4 * 10.0 / ((force - 0.1) / 0.75));
+    data.surge->rows.push_back({i + 2, force, 10.0 / elapsed_s, 10.0, elapsed_s});
+  }
+  return data;
+}
+
+TEST(CoastDown, OneFindingNamesTheFamilyIfTheSurgeRunsRejectThePowerLaw) {
+  const auto result = identify(vehicle(), deciding_runs_and_curves(), {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(reports(result->model, "power-law-inadequate"));
+  EXPECT_FALSE(reports(result->model, "family-by-coastdown"));
+  EXPECT_FALSE(result->model[ParameterId::kSurgeAlpha].ci95);
+  IdentifyOptions options;
+  options.surge_family = {.family = Family::kCoulombLinear, .requested = true};
+  const auto followed = identify(vehicle(), deciding_runs_and_curves(), options, {});
+  ASSERT_TRUE(followed);
+  EXPECT_FALSE(reports(followed->model, "power-law-inadequate"));
+  EXPECT_FALSE(reports(followed->model, "family-by-coastdown"));
+  EXPECT_TRUE(followed->model[ParameterId::kSurgeAlpha].ci95);
+}
+
 TEST(CoastDown, DecidesBetweenFamiliesThatTheSurgeRunsLeaveOpen) {
   IdentifyOptions options;
   options.surge_family = {.family = std::nullopt, .requested = true};

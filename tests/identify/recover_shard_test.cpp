@@ -9,6 +9,7 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/hash.h"
+#include "awmr/core/option_text.h"
 #include "identify/synthetic.h"
 #include "support/paper_vehicle.h"
 #include "support/process.h"
@@ -42,6 +43,28 @@ RecoverOptions seven_runs() {
 std::string bytes_of(const Recovery& recovery) { return recovery_text(recovery, kProvenance); }
 
 constexpr const char* kRecoverTable = "recovery.csv";
+
+/// The model's mass is from coast-down curves, which leave no rows of `/trials`: tables simulated
+/// from these rows do not determine it.
+TEST(Recover, ReportsQuantitiesThatTheSimulatedTrialsDoNotDetermine) {
+  Model curved = model();
+  std::erase_if(curved.record.trials,
+                [](const TrialPoint& trial) { return trial.kind == TrialKind::kCoastdown; });
+  RecoverOptions options = seven_runs();
+  const auto by_tables = recover(curved, options, {});
+  ASSERT_TRUE(by_tables) << to_text(by_tables.error());
+  ASSERT_EQ(by_tables->findings.size(), 1U);
+  const Finding& note = by_tables->findings.front();
+  EXPECT_EQ(note.code, "not-identifiable");
+  EXPECT_EQ(note.severity, Severity::kNote);
+  EXPECT_THAT(note.message, HasSubstr("mass_norm, inertia_norm"));
+  EXPECT_THAT(note.message, HasSubstr(option_text("plan curve")));
+  EXPECT_EQ(by_tables->parameters.size() + 2, recover(model(), options, {})->parameters.size());
+  options.plan = RecoverPlan::kCurve;
+  const auto by_curve = recover(curved, options, {});
+  ASSERT_TRUE(by_curve) << to_text(by_curve.error());
+  EXPECT_TRUE(by_curve->findings.empty());
+}
 
 class RecoverShards : public ::testing::Test {
  protected:

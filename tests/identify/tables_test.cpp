@@ -88,7 +88,12 @@ TEST(Families, AutoSelectsThePowerLawOnlyIfItIsTheTruth) {
   const Finding* verdict = finding(forced->model, "power-law-inadequate");
   ASSERT_NE(verdict, nullptr);
   EXPECT_THAT(verdict->message,
-              ::testing::HasSubstr("use " + option_text("family coulomb-linear")));
+              ::testing::HasSubstr("use " + option_text("family surge=coulomb-linear")));
+  // After the user has followed this advice, the power law is no longer mentioned.
+  const auto followed =
+      identify(vehicle(), runs_on(stiff, 0.0, 0.005, 4), family(Family::kCoulombLinear), {});
+  ASSERT_TRUE(followed);
+  EXPECT_EQ(finding(followed->model, "power-law-inadequate"), nullptr);
   EXPECT_FALSE(forced->model[ParameterId::kSurgeAlpha].ci95);
   EXPECT_TRUE(plain->model[ParameterId::kSurgeAlpha].ci95);
 }

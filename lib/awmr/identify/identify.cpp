@@ -162,16 +162,26 @@ Finding family_by_coastdown(const std::string& file, Family by_runs, const Famil
 
 /// Fits the surge law. If the runs do not decide between families of resistance, the coast-down
 /// curves do (family_of_curves()). Their family is used if the user did not select one by name;
-/// without a selection, the power law stays and is reported as inadequate.
+/// without a selection, the power law stays and is reported as inadequate. Runs that reject the
+/// power law are compared among the other families; `family-by-coastdown` then replaces
+/// `power-law-inadequate`, because both data together give the better family.
 SubjectFit fit_surge(const Subject& subject, SubjectOptions options,
                      const std::vector<CoastCurve>& curves) {
   SubjectFit fit = fit_subject(subject, options);
   if (!fit.chosen || (options.family.requested && options.family.family)) return fit;
-  const auto found = family_of_curves(fit, curves);
+  const bool rejects_power = fit.is_inadequate;
+  SubjectOptions any_family = options;
+  any_family.family.family = std::nullopt;
+  any_family.method = Method::kNonlinear;  // the log-linear fit has only the power law
+  const SubjectFit compared = rejects_power ? fit_subject(subject, any_family) : fit;
+  const auto found = family_of_curves(compared, curves);
   if (!found) return fit;
   const bool is_used = !options.family.family;
   const Finding finding =
-      family_by_coastdown(curves.front().file, fit.problem.family, *found, is_used);
+      family_by_coastdown(curves.front().file, compared.problem.family, *found, is_used);
+  if (rejects_power) {
+    std::erase_if(fit.findings, [](const Finding& f) { return f.code == "power-law-inadequate"; });
+  }
   if (is_used) {
     options.family.family = found->family;
     fit = fit_subject(subject, options);

@@ -258,6 +258,17 @@ std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<Parame
   return truths;
 }
 
+/// Quantities that the model identified from its trials: neither given nor assumed.
+std::vector<ParameterId> identified_in(const Model& model) {
+  std::vector<ParameterId> identified;
+  for (const ParameterInfo& parameter : parameter_table()) {
+    const Estimate& estimate = model[parameter.id];
+    if (!estimate.value || estimate.source == Source::kGiven) continue;
+    if (estimate.method != kAssumedSwayMethod) identified.push_back(parameter.id);
+  }
+  return identified;
+}
+
 /// Stores the runs in the part. Also stores the first run with a refused parameter, with the
 /// reason, and, if every run failed, the error of the first run.
 void put_runs(std::vector<OneRun> runs, RecoverPart& part) {
@@ -363,6 +374,9 @@ Result<RecoverPart> recover_part(const Model& model, const RecoverOptions& given
                    .runs = {},
                    .refusal = {},
                    .error = {}};
+  if (given.identify.requested.empty() && options.plan != RecoverPlan::kLog) {
+    part.identified = identified_in(model);
+  }
   put_runs(simulated_runs(experiment, options, shard, part.truths, progress), part);
   return part;
 }

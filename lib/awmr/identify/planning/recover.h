@@ -67,6 +67,8 @@ struct Recovery {
   std::string noise_text;  ///< description of the simulated noise
   int runs = 0;
   int failed = 0;  ///< number of runs in which a requested parameter was refused
+  /// A note (`not-identifiable`) on quantities that the model identified, but no run.
+  std::vector<Finding> findings = {};
 };
 
 /// Runs the self-test. `progress` is called on the calling thread with the number of completed

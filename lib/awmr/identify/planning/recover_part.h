@@ -51,7 +51,10 @@ struct RecoverPart {
   std::string noise_text;              ///< description of the simulated noise
   std::vector<ParameterId> requested;  ///< empty: every parameter that the trials identify
   std::vector<RecoverTruth> truths;    ///< true values of the evaluated parameters
-  std::vector<RecoverRun> runs;        ///< in the order of their index
+  /// Quantities that the model identified from its trials. Empty if the user requested parameters,
+  /// or for RecoverPlan::kLog: then nothing is reported as left out.
+  std::vector<ParameterId> identified = {};
+  std::vector<RecoverRun> runs;  ///< in the order of their index
   std::optional<RecoverRefusal> refusal;
   std::optional<Error> error;  ///< error of the first run, if every run failed
 };

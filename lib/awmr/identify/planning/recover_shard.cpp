@@ -109,6 +109,11 @@ RecoverPart read_payload(JsonObject& json) {
     if (const auto id = read_parameter(json, "asked", name)) part.requested.push_back(*id);
   }
   part.truths = read_truths(json.object("truths"));
+  if (json.has("identified")) {
+    for (const std::string& name : json.strings("identified")) {
+      if (const auto id = read_parameter(json, "identified", name)) part.identified.push_back(*id);
+    }
+  }
   part.refusal = json.optional_object("refusal", read_refusal);
   part.error = json.optional_object("error", read_error);
   return part;
@@ -174,6 +179,8 @@ PartText recover_part_text(const RecoverPart& part, const Shard& shard,
   for (const RecoverTruth& truth : part.truths) {
     json["truths"][std::string(info(truth.id).name)] = truth.value;
   }
+  if (!part.identified.empty()) json["identified"] = Json::array();
+  for (const ParameterId id : part.identified) json["identified"].push_back(info(id).name);
   if (part.refusal) {
     json["refusal"] = {{"run", part.refusal->run}, {"message", part.refusal->message}};
   }

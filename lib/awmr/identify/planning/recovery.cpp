@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "awmr/core/json.h"
+#include "awmr/core/option_text.h"
 #include "awmr/identify/planning/recover_part.h"
 #include "awmr/model/findings_json.h"
 
@@ -55,6 +56,25 @@ Status check_recovered(const Recovery& recovery, const RecoverPart& whole) {
                                 : ", because the trials of this plan do not determine it"));
 }
 
+/// Returns a note on the quantities that the model identified, but none of the runs. A coast-down
+/// curve identifies m' and I'z, a log all other quantities.
+std::vector<Finding> left_out_findings(const Recovery& recovery, const RecoverPart& whole) {
+  std::vector<std::string_view> missing;
+  bool is_mass = false;
+  for (const ParameterId id : whole.identified) {
+    const auto is_it = [id](const RecoveredParameter& p) { return p.id == id; };
+    if (std::ranges::any_of(recovery.parameters, is_it)) continue;
+    missing.push_back(info(id).name);
+    is_mass = is_mass || id == ParameterId::kMassNorm;
+  }
+  if (missing.empty()) return {};
+  return {
+      {"", 0, Severity::kNote, "not-identifiable",
+       fmt::format("the simulated trials do not determine {}, which the model identified from "
+                   "other trials, so their bias and coverage are not tested; use {}",
+                   fmt::join(missing, ", "), option_text(is_mass ? "plan curve" : "plan log"))}};
+}
+
 constexpr long kMaxRuns = std::numeric_limits<int>::max();
 
 void describe_recovery(JsonObject& json) {
@@ -87,6 +107,7 @@ Result<Recovery> recovery_of(const RecoverPart& whole) {
     if (p.runs > 0) recovery.parameters.push_back(p);
   }
   AWMR_RETURN_IF_ERROR(check_recovered(recovery, whole));
+  recovery.findings = left_out_findings(recovery, whole);
   return recovery;
 }
 

@@ -111,7 +111,7 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
 }
 
 /// The finding `power-law-inadequate`, if the AICc of another family is lower than that of the
-/// power law by at least kTablesPlainlyBetter.
+/// power law by at least kTablesPlainlyBetter. No finding if the user chose another family.
 std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wanted,
                                         const std::vector<FamilyCandidate>& candidates,
                                         Family used) {
@@ -122,15 +122,17 @@ std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wante
   if (difference < kTablesPlainlyBetter) return {};
   const bool power_used = used == Family::kPower;
   const std::string_view better = name_of(best->problem.family);
+  const std::string option =
+      fmt::format("family {}={}", name_in(kFitSubjectNames, subject.name), better);
   return {about(subject, power_used ? Severity::kWarning : Severity::kNote, "power-law-inadequate",
                 fmt::format("a power law does not describe these runs. The family {} fits better: "
                             "its AICc (a measure of the error) is lower by {}, its residual "
                             "standard deviation is {:.3g} (power law: {:.3g}){}",
                             better, aic_decrease_text(difference, 1), best->fit.residual_std,
                             power->fit.residual_std,
-                            power_used ? fmt::format(". The values that follow from these runs get "
-                                                     "no intervals; use {}",
-                                                     option_text(fmt::format("family {}", better)))
+                            power_used ? ". The values that follow from these runs get no "
+                                         "intervals; use " +
+                                             option_text(option)
                                        : std::string()))};
 }
 
@@ -258,7 +260,10 @@ SubjectFit fit_rows(const Subject& subject, const SubjectOptions& options) {
   if (!options.side_by_side) return result;
   add_diagnostics(subject, report, result);
   if (options.loss == Loss::kSquared) {
-    auto findings = power_law_findings(subject, wanted, candidates, result.problem.family);
+    std::vector<Finding> findings;
+    if (options.family.family.value_or(Family::kPower) == Family::kPower) {
+      findings = power_law_findings(subject, wanted, candidates, result.problem.family);
+    }
     result.is_inadequate = !findings.empty() && result.problem.family == Family::kPower;
     append(result.findings, findings);
     result.undecided = undecided_fits(candidates, wanted, result.problem.family);
