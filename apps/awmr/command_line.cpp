@@ -40,6 +40,13 @@ std::optional<std::string> unknown_option(const CLI::App& command) {
 
 }  // namespace
 
+bool has_unknown_command(const CLI::App& app, int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  const std::vector<std::string> names = command_names(app);
+  return !first.empty() && first.front() != '-' &&
+         std::find(names.begin(), names.end(), first) == names.end();
+}
+
 std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error, int argc,
                              char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";

@@ -35,7 +35,7 @@ Result<Outcome> execute(const ExportCommand& command) {
   source.inputs = inputs;
   AWMR_ASSIGN_OR_RETURN(const std::string text, export_text(source, command.format));
   AWMR_RETURN_IF_ERROR(write_file(command.output, text));
-  std::vector<Finding> findings;
+  AWMR_ASSIGN_OR_RETURN(std::vector<Finding> findings, export_findings(source, command.format));
   if (command.gains) {
     AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings));
   }

@@ -38,8 +38,9 @@ void add_commands(CLI::App& app, awmr::cli::Session& session) {
 }
 
 /// Prints the help if it was requested, else the error of the command line. Returns the exit code.
+/// Help for an unknown command is an error, too.
 int end_of_parsing(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
-  if (error.get_exit_code() == 0) {
+  if (error.get_exit_code() == 0 && !awmr::cli::has_unknown_command(app, argc, argv)) {
     app.exit(error);
     return std::cout.flush() ? 0 : 2;
   }

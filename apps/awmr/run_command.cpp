@@ -207,6 +207,7 @@ Status steps_after_identify(const RunCommand& command, const Project& project,
 
 Result<Outcome> execute(const RunCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Project project, read_project(command.project));
+  AWMR_RETURN_IF_ERROR(check_output_directory(command.output));
   const auto checked = checked_inputs(command, project);
   if (!checked) return for_project("identify", tl::unexpected(checked.error()));
   const std::vector<fs::path>& inputs = *checked;

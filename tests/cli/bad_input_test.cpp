@@ -83,6 +83,48 @@ TEST_F(BadInput, UnknownOptionAndCommandExitWithTwo) {
   EXPECT_EQ(awmr("").exit_code, 2);
 }
 
+TEST_F(BadInput, HelpOfAnUnknownCommandExitsWithTwo) {
+  for (const char* line : {"bogus --help", "bogus --version", "bogus -h"}) {
+    const ProcessResult result = awmr(line);
+    EXPECT_EQ(result.exit_code, 2) << line;
+    EXPECT_THAT(result.err, HasSubstr("'bogus'")) << line;
+    EXPECT_THAT(result.err, HasSubstr("[usage]")) << line;
+    EXPECT_EQ(result.out, "") << line;
+  }
+  EXPECT_EQ(awmr("identify --help").exit_code, 0);
+  EXPECT_EQ(awmr("--help").exit_code, 0);
+}
+
+TEST_F(BadInput, ADirectoryInPlaceOfAFileIsNamed) {
+  const TemporaryDirectory directory;
+  write_all(directory.path() / "one.csv", "t_s,a\n0,1\n1,2\n");
+  const std::string place = directory.path().string();
+  const std::string vehicle = "configs/paper/vehicle.json";
+  for (const std::string& line :
+       {"identify --vehicle " + vehicle + " --surge " + place + " -o m.json",
+        "identify --vehicle " + vehicle + " --turning " + place + " -o m.json",
+        "identify --vehicle " + vehicle + " --log " + place + " -o m.json",
+        "identify --vehicle " + vehicle + " --coastdown " + place + " -o m.json",
+        "identify --vehicle " + place + " --surge datasets/paper/surge.csv -o m.json",
+        "simulate --model " + place + " --scenario x --mode combined -o r.csv"}) {
+    const ProcessResult result = awmr(line);
+    EXPECT_EQ(result.exit_code, 2) << line;
+    EXPECT_THAT(result.err, HasSubstr("error: " + place)) << line;
+    EXPECT_THAT(result.err, ::testing::ContainsRegex("this (is a directory|directory is)")) << line;
+  }
+}
+
+TEST_F(BadInput, RunIntoAFileNamesTheFile) {
+  const TemporaryDirectory directory;
+  const std::string file = (directory.path() / "FILE").string();
+  write_all(file, "kept");
+  const ProcessResult result = awmr("run configs/paper/project.json -o " + file);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("error: " + file + ": this is a file"));
+  EXPECT_THAT(result.err, HasSubstr("[wrong-file]"));
+  EXPECT_EQ(read_all(file), "kept");
+}
+
 TEST_F(BadInput, WithoutArgumentsTheCommandsAreShown) {
   const ProcessResult result = awmr("");
   EXPECT_EQ(result.exit_code, 2);

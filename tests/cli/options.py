@@ -29,7 +29,7 @@ def options_of(command, known={}):
     return known[command]
 
 
-every = set(re.findall(r"^  ([a-z]+) ", awmr("--help").split("Subcommands:")[-1], re.M))
+every = set(re.findall(r"^  ([a-z]+) ", awmr("--help").split("Subcommands:")[-1].split("Examples:")[0], re.M))
 assert {"run", "tune", "compare"} <= every, every
 
 

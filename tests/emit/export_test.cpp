@@ -119,6 +119,18 @@ TEST(Export, ArduPilotsSteeringFeedForwardTurnsSteeredWheelsAtTheRateRequested) 
   EXPECT_NEAR(plant.yaw.at(r), moment, 1e-4 * moment);
 }
 
+TEST(Export, WarnsOfArduPilotsValuesOutsideOfItsManual) {
+  const Model model = paper_robot();
+  const ExportSource source{.model = model, .gains = ModeGains(kPaperGains)};
+  const auto findings = export_findings(source, ExportFormat::kArduPilot);
+  ASSERT_TRUE(findings);
+  ASSERT_EQ(findings->size(), 1U);
+  EXPECT_EQ(findings->front().code, "autopilot-range");
+  EXPECT_EQ(findings->front().severity, Severity::kWarning);
+  EXPECT_THAT(findings->front().message, ::testing::HasSubstr("ATC_STR_RAT_FF"));
+  EXPECT_TRUE(export_findings(source, ExportFormat::kRos2)->empty());
+}
+
 TEST(Export, Px4sFeedForwardTurnsSkidSteeringAtTheRateRequested) {
   const Model model = differential_model();
   const auto values = parameters_of(text_of(model, ExportFormat::kPx4));

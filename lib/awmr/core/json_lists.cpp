@@ -13,6 +13,7 @@
 namespace awmr {
 
 std::string describe(const Json& value) {
+  if (value.is_null()) return "null";
   std::string text = value.dump();
   if (text.size() > 40) text = std::string(first_characters(text, 37)) + "...";
   return fmt::format("{} {}", value.type_name(), text);

@@ -61,6 +61,8 @@ struct Autopilot {
     if (usual && !usual->contains(value)) {
       derivation += fmt::format(", outside of [{:g}, {:g}], the range in the autopilot's manual",
                                 usual->lo, usual->hi);
+      found.beyond_range.push_back(
+          fmt::format("{} = {:.3g} ({:g} to {:g})", name, value, usual->lo, usual->hi));
     }
     ExportedValue one{.name = name,
                       .value = value,

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "awmr/core/name_table.h"
 #include "awmr/core/provenance.h"
@@ -43,5 +44,9 @@ struct ExportSource {
 /// only for autopilots: the model lacks the surge law or has back-EMF; not all four wheels are
 /// driven.
 Result<std::string> export_text(const ExportSource& source, ExportFormat format);
+
+/// A warning (`autopilot-range`) if values of an autopilot's file are outside of the ranges in the
+/// autopilot's manual. Empty for other formats. Errors: those of export_text().
+Result<std::vector<Finding>> export_findings(const ExportSource& source, ExportFormat format);
 
 }  // namespace awmr

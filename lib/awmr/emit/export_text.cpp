@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -7,6 +8,7 @@
 #include "awmr/core/text.h"
 #include "c_text.h"
 #include "exported_values.h"
+#include "macros.h"
 
 namespace awmr {
 namespace {
@@ -162,6 +164,21 @@ Result<std::string> export_text(const ExportSource& source, ExportFormat format)
       return px4_text(source);
   }
   return program_fault("an export format without a writer");
+}
+
+Result<std::vector<Finding>> export_findings(const ExportSource& source, ExportFormat format) {
+  std::vector<Finding> findings;
+  if (format != ExportFormat::kArduPilot && format != ExportFormat::kPx4) return findings;
+  AWMR_ASSIGN_OR_RETURN(const AutopilotValues found, format == ExportFormat::kPx4
+                                                         ? px4_values(source)
+                                                         : ardupilot_values(source));
+  if (found.beyond_range.empty()) return findings;
+  findings.push_back({file_name(source.model), 0, Severity::kWarning, "autopilot-range",
+                      fmt::format("outside of the ranges in the autopilot's manual: {}. Ground "
+                                  "stations may refuse or limit these values. Check them, and "
+                                  "drive slowly at first",
+                                  fmt::join(found.beyond_range, ", "))});
+  return findings;
 }
 
 }  // namespace awmr

@@ -28,8 +28,9 @@ std::vector<ExportedValue> exported_values(const ExportSource& source);
 
 /// Values for an autopilot's parameter file, and texts about the parameters without a value.
 struct AutopilotValues {
-  std::vector<ExportedValue> values;  ///< the equation is in ExportedValue::meaning
-  std::vector<std::string> left_out;  ///< "NAME: reason"
+  std::vector<ExportedValue> values;      ///< the equation is in ExportedValue::meaning
+  std::vector<std::string> left_out;      ///< "NAME: reason"
+  std::vector<std::string> beyond_range;  ///< "NAME = 2.68 (0 to 2)": outside of the manual's range
 };
 /// Derives the parameters of ArduPilot Rover and of PX4's rovers. Errors (input): the model lacks
 /// the surge law or has back-EMF; not all four wheels are driven.

@@ -92,6 +92,14 @@ std::vector<std::filesystem::path> paths_as_read(const TrialFiles& files) {
   return paths;
 }
 
+/// Checks that a table with a row per run is a file. A directory is a recording of several topics,
+/// which can be a log or a coast-down curve, but no such table.
+Status check_no_directory(const std::optional<std::filesystem::path>& path) {
+  std::error_code error;
+  if (!path || !std::filesystem::is_directory(*path, error)) return {};
+  return input_error(ErrorCode::kWrongFile, path->string(), "this is a directory; give a file");
+}
+
 /// Reads the surge, turning and coast-down files, and compares each with the vehicle and the other
 /// tables.
 void read_tables(const TrialFiles& files, const TrialOptions& options, Trials& trials,
@@ -152,6 +160,8 @@ std::vector<std::filesystem::path> paths_of(const TrialFiles& files) {
 
 Result<Trials> load_trials(Vehicle vehicle, const TrialFiles& files) {
   AWMR_RETURN_IF_ERROR(check(files));
+  AWMR_RETURN_IF_ERROR(check_no_directory(files.surge));
+  AWMR_RETURN_IF_ERROR(check_no_directory(files.turning));
   AWMR_ASSIGN_OR_RETURN(const TrialOptions options, with_vehicle_columns(files.options, vehicle));
   Trials trials{.vehicle = std::move(vehicle), .data = {}, .findings = {}};
   TrialData& data = trials.data;

@@ -113,6 +113,16 @@ std::optional<Result<ColumnLog>> read_columns(std::string_view bytes, const std:
   return std::nullopt;
 }
 
+/// Names the directory as the place of the faults of its common table, which has no lines.
+tl::unexpected<Error> in_directory(Error error, const std::string& directory) {
+  for (Fault& fault : error.faults) {
+    if (fault.place != directory && !fault.place.starts_with(directory + ":")) continue;
+    fault.place = directory;
+    fault.message = "this directory is read as one recording: " + fault.message;
+  }
+  return tl::unexpected(std::move(error));
+}
+
 Result<CsvTable> read_table(const fs::path& path, std::span<const CsvColumn> columns,
                             const TrialOptions& options) {
   const std::string file = path.string();
@@ -128,7 +138,9 @@ Result<CsvTable> read_table(const fs::path& path, std::span<const CsvColumn> col
     } else {
       AWMR_ASSIGN_OR_RETURN(topics, read_csv_topics(paths, options.columns, wanted));
     }
-    return table_of_signals(std::move(topics), file, columns, options.columns);
+    auto table = table_of_signals(std::move(topics), file, columns, options.columns);
+    if (!table) return in_directory(std::move(table).error(), file);
+    return table;
   }
   AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_input(path));
   if (auto log = read_columns(bytes, file)) {

@@ -46,8 +46,8 @@ function fitChart(parent, model, fit, kind, height = 300) {
   return plot(parent, {title: `${kind} trials`, x, y, series, byPoint: true, zero: "xy", height});
 }
 
-/// Chart of the residuals in percent of the prediction, with the limits that contain 99 % of
-/// normally distributed residuals.
+/// Chart of the residuals of the speed or yaw rate in percent of the prediction, with the limits
+/// that contain 99 % of normally distributed residuals.
 function residualChart(parent, model, fit, kind) {
   if (!fit) return;
   const note = rowNote(model);
@@ -57,7 +57,7 @@ function residualChart(parent, model, fit, kind) {
   const last = Math.max(...points.map((p) => p[0])), bound = fit.bound_percent;
   const level = (y) => [[0, y], [last, y]];
   plot(parent, {title: `${kind} trials: residuals`, x: axisWords[kind][0],
-    y: "measured − predicted, %", byPoint: true, height: 300, zero: "xy", series: [
+    y: `${axisWords[kind][0].split(",")[0]}: measured − predicted, %`, byPoint: true, height: 300, zero: "xy", series: [
     {name: `99 % limits, ±${digits(bound)} %`, kind: "line", colour: "var(--model)", width: 1.4,
       points: [...level(bound), [null, null], ...level(-bound)]},
     {name: "as predicted", kind: "line", points: level(0), colour: "var(--dim)", width: 1},
@@ -170,6 +170,10 @@ function identificationSection(data) {
     residualChart(charts, model, fits[kind], kind);
   }
   coastdownChart(charts, model, fits.coastdown);
+  if (["surge", "turning"].some((kind) => fits[kind] && fits[kind].left_over.length)) {
+    small(box, "A positive residual is a run that was faster than predicted from its force: a point " +
+      "to the right of, and so below, the fitted curve.");
+  }
   if (!charts.childElementCount) charts.remove();
   add(box, "h3", "Parameters");
   const parts = ["surge", "yaw", "sway", "wheel", "mass_norm", "inertia_norm", "steering"];
