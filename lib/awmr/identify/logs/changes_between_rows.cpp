@@ -302,7 +302,10 @@ FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
     return between;
   }
   if (!is_usable) return {logs, fit_first_family(logs, power_law, options), {}};
-  return {logs, with_new_terms(logs, power_law, other), {}};
+  return {logs,
+          with_new_terms(logs, with_optional_coulomb(power_law, options, other.surge, other.yaw),
+                         other),
+          {}};
 }
 
 }  // namespace awmr

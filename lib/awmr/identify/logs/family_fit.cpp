@@ -260,6 +260,7 @@ FamilyFit with_new_terms(const std::vector<DrivingLog>& logs, const LogFitOption
                          const FamilyFit& fit) {
   LogFitOptions options = from_optimum(fit.options, fit);
   options.finds_delays = true;
+  options.optional_coulomb = power_law.optional_coulomb;
   if (!has_right_terms(fit.fit)) {
     std::erase_if(options.terms,
                   [](const FreeTerm& term) { return !term.quantity.is_stribeck_or_slope(); });

@@ -162,6 +162,7 @@ FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power
                  const FamilyFit& rough) {
   LogFitOptions options = from_optimum(rough.options, rough);
   options.finds_delays = power_law.finds_delays;
+  options.optional_coulomb = power_law.optional_coulomb;
   const auto is_requested = [&](const FreeTerm& term) {
     return std::ranges::any_of(power_law.terms, [&](const FreeTerm& other) {
       return other.quantity.kind == term.quantity.kind;

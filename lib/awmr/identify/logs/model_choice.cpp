@@ -60,6 +60,18 @@ void show_step(const IdentifyOptions& options, std::string_view what) {
   if (options.doing) options.doing(what);
 }
 
+LogFitOptions with_optional_coulomb(LogFitOptions power_law, const IdentifyOptions& options,
+                                    Family surge, Family yaw) {
+  const OpenAxes open = open_axes(power_law, options);
+  if (open.surge && surge == Family::kPower) {
+    power_law.optional_coulomb.push_back(ParameterId::kSurgeCoulomb);
+  }
+  if (open.yaw && yaw == Family::kPower) {
+    power_law.optional_coulomb.push_back(ParameterId::kYawCoulomb);
+  }
+  return power_law;
+}
+
 FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            const IdentifyOptions& options) {
   show_step(options, "fitting the logs");
@@ -68,16 +80,12 @@ FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOpti
   const Family yaw = options.fitted_yaw_family().family.value_or(Family::kPower);
   const OpenAxes open = open_axes(power_law, options);
   if (!open.any()) return fit_family(logs, power_law, surge, yaw);
-  LogFitOptions first = power_law;
+  LogFitOptions first = with_optional_coulomb(power_law, options, surge, yaw);
   first.give_up_above = kErrorOfModel;
-  if (open.surge && surge == Family::kPower) first.optional_coulomb = {ParameterId::kSurgeCoulomb};
-  if (open.yaw && yaw == Family::kPower) {
-    first.optional_coulomb.push_back(ParameterId::kYawCoulomb);
-  }
-  FamilyFit fit = fit_family(logs, first, surge, yaw);
+  const FamilyFit fit = fit_family(logs, first, surge, yaw);
   if (!fit.fit.gave_up) return fit;
-  first = power_law;
-  return refine(logs, first, likely_families(logs, first, fit, open));
+  const FamilyFit likely = likely_families(logs, power_law, fit, open);
+  return refine(logs, with_optional_coulomb(power_law, options, likely.surge, likely.yaw), likely);
 }
 
 std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs) {

@@ -15,6 +15,10 @@ namespace awmr {
 /// Calls options.doing, if it is set, with the name of the step that begins.
 void show_step(const IdentifyOptions& options, std::string_view what);
 
+/// Sets LogFitOptions::optional_coulomb for a first fit of the families `surge` and `yaw`.
+LogFitOptions with_optional_coulomb(LogFitOptions power_law, const IdentifyOptions& options,
+                                    Family surge, Family yaw);
+
 /// Fits the resistance families that the user requested, else power laws. If the errors after the
 /// first round are far above the sensor noise, selects likelier families, and perhaps back-EMF
 /// (likely_families()), and fits those instead. Never changes a family that the user selected.
