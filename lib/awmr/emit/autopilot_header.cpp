@@ -27,8 +27,8 @@ constexpr std::string_view kIntro =
 #define AWMR_STEERING_MAX_TAN_HALF {}
 
 /* Largest measured speeds |u| (forward) and |v| (to the left), m/s, and yaw rates |r|, rad/s, that
-   are not a fault: the ends of the resistance tables, which the motors cannot reach. For the largest
-   commanded speed see AWMR_COMMAND_SPEED_MAX_MPS */
+   are not a fault: the ends of the resistance tables, which the motors cannot reach. Largest
+   commanded speed: AWMR_COMMAND_SPEED_MAX_MPS */
 #define AWMR_SPEED_MAX_MPS {}
 #define AWMR_YAW_RATE_MAX_RADPS {}
 /* ms: largest age of heading and yaw rate, of speed and position, and of the last command; longest

@@ -33,10 +33,11 @@ function blockingFindings(findings) {
   return causes.length ? causes : first;
 }
 
-/// Sentence with the remedy of a blocking finding.
-function remedyStep({code}) {
-  const remedy = remedies[code] || `see its message and “awmr explain ${code}”`;
-  return `Before you drive, resolve “${code}”: ${remedy}.`;
+/// Sentences with the remedies of the blocking findings. Findings with the same remedy share one.
+function remedySteps(findings) {
+  const remedyOf = ({code}) => remedies[code] || `see its message and “awmr explain ${code}”`;
+  return [...groupBy(blockingFindings(findings), remedyOf)].map(([remedy, of]) =>
+    `Before you drive, resolve ${of.map((f) => `“${f.code}”`).join(" and ")}: ${remedy}.`);
 }
 
 /// Adds the three findings with the largest effect on the results.
