@@ -167,7 +167,7 @@ TEST_F(JsonObjectTest, WrongTypesSayWhatWasFoundAndWhatIsExpected) {
                           "a.json:/b: expected true or false, found number 1",
                           "a.json:/c/1: expected a number, found string \"y\"",
                           "a.json:/d: expected an object, found number 5",
-                          "a.json:/e: expected a string, found null null",
+                          "a.json:/e: expected a string, found null",
                           "a.json:/f: expected a whole number from 0 to 9, found number 1.5",
                           "a.json:/g/0: expected an object, found number 1"));
 }
