@@ -89,9 +89,13 @@ TEST(Identify, CovarianceIsSymmetricAndHasNoNegativeDirection) {
 
 TEST(Identify, StopTimeErrorIncludesTheCorrelationOfTheSurgeFit) {
   // d ln m' = d ln a1 + (-1/(1 - b1) + mean ln u) d b1. The variance follows with the joint
-  // covariance of (a1, b1), here for errors of the force.
+  // covariance of (a1, b1), here for errors of the force. The family is named, so that m' is not
+  // averaged over families.
   const auto result = identify(vehicle(), synthetic(kTruths[0], 0.03, 7),
-                               {.method = Method::kNonlinear, .noise = ErrorModel::kForce}, {});
+                               {.method = Method::kNonlinear,
+                                .noise = ErrorModel::kForce,
+                                .surge_family = {.family = Family::kPower, .requested = true}},
+                               {});
   const Model& m = result->model;
   const double a1 = *m[ParameterId::kSurgeAlpha].value;
   const double b1 = *m[ParameterId::kSurgeBeta].value;

@@ -13,6 +13,7 @@
 #include "awmr/core/sample_quantile.h"
 #include "awmr/identify/admissible.h"
 #include "awmr/identify/assumed_sway.h"
+#include "awmr/identify/coastdown/stop_families.h"
 #include "awmr/identify/main_values.h"
 #include "awmr/identify/refusals.h"
 #include "awmr/identify/tables/scrub.h"
@@ -160,25 +161,36 @@ Finding family_by_coastdown(const std::string& file, Family by_runs, const Famil
                                             option_text(fmt::format("family surge={}", family))))};
 }
 
-/// Fits the surge law. If the runs do not decide between families of resistance, the coast-down
-/// curves do (family_of_curves()). Their family is used if the user did not select one by name;
-/// without a selection, the power law stays and is reported as inadequate. Runs that reject the
-/// power law are compared among the other families; `family-by-coastdown` then replaces
+/// The family of the coast-downs: of the curves, else of the stop times. With stop times, a power
+/// law that is only a default is rejected if another family is better by kTablesPlainlyBetter;
+/// between these limits, the interval of m' covers both (average_over_families()).
+std::optional<FamilyOfCurves> family_of_coastdowns(const SubjectFit& surge, const TrialData& data,
+                                                   bool is_used) {
+  if (!data.curves.empty()) return family_of_curves(surge, data.curves);
+  if (!data.coastdown || surge.is_inadequate) return std::nullopt;
+  const auto found = family_of_stops(surge, data.coastdown->rows);
+  if (!found || (!is_used && found->decrease < kTablesPlainlyBetter)) return std::nullopt;
+  return found;
+}
+
+/// Fits the surge law. If the runs do not decide between families of resistance, the coast-downs
+/// do (family_of_coastdowns()). Their family is used if the user did not select one by name;
+/// without a selection, the power law stays and is reported as inadequate. With curves, runs that
+/// reject the power law are compared among the other families; `family-by-coastdown` then replaces
 /// `power-law-inadequate`, because both data together give the better family.
-SubjectFit fit_surge(const Subject& subject, SubjectOptions options,
-                     const std::vector<CoastCurve>& curves) {
+SubjectFit fit_surge(const Subject& subject, SubjectOptions options, const TrialData& data) {
   SubjectFit fit = fit_subject(subject, options);
   if (!fit.chosen || (options.family.requested && options.family.family)) return fit;
-  const bool rejects_power = fit.is_inadequate;
+  const bool is_used = !options.family.family;
+  const bool rejects_power = fit.is_inadequate && !data.curves.empty();
   SubjectOptions any_family = options;
   any_family.family.family = std::nullopt;
   any_family.method = Method::kNonlinear;  // the log-linear fit has only the power law
   const SubjectFit compared = rejects_power ? fit_subject(subject, any_family) : fit;
-  const auto found = family_of_curves(compared, curves);
+  const auto found = family_of_coastdowns(compared, data, is_used);
   if (!found) return fit;
-  const bool is_used = !options.family.family;
-  const Finding finding =
-      family_by_coastdown(curves.front().file, compared.problem.family, *found, is_used);
+  const std::string& file = data.curves.empty() ? data.coastdown->file : data.curves.front().file;
+  const Finding finding = family_by_coastdown(file, compared.problem.family, *found, is_used);
   if (rejects_power) {
     std::erase_if(fit.findings, [](const Finding& f) { return f.code == "power-law-inadequate"; });
   }
@@ -212,8 +224,7 @@ SubjectFit identify_laws(const Vehicle& vehicle, const TrialData& data,
   if (data.surge) {
     const Subject subject = surge_subject(vehicle, *data.surge);
     surge = identify_law(
-        subject,
-        fit_surge(subject, subject_options(options, method, options.surge_family), data.curves),
+        subject, fit_surge(subject, subject_options(options, method, options.surge_family), data),
         std::nullopt, values);
     reasons.surge = surge.refusal_reason;
   }

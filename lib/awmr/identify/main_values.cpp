@@ -33,6 +33,25 @@ Estimate from_last(const Posterior& posterior, double log_value, double factor, 
   return estimate;
 }
 
+/// Relative standard deviation of the yaw inertia of a vehicle from that of a uniform box. Masses
+/// near the centre make it smaller, masses at the ends larger, each by up to some 30 %, here two
+/// standard deviations.
+constexpr double kBoxInertiaError = 0.15;
+
+/// The posterior with an independent error of the last number, of known standard deviation. The
+/// degrees of freedom are those of the sum (Satterthwaite).
+Posterior with_error(Posterior posterior, double deviation) {
+  for (Posterior::Alternative& k : posterior.alternatives) {
+    const Eigen::Index last = k.centre.size() - 1;
+    const double before = k.covariance(last, last);
+    if (!(before > 0.0) || !(deviation > 0.0)) continue;
+    const double after = before + deviation * deviation;
+    k.covariance(last, last) = after;
+    k.dof(last) *= after * after / (before * before);
+  }
+  return posterior;
+}
+
 void set_beta_of_curve(const CoastFit& curve, Model& model) {
   const double error = std::sqrt(curve.beta_variance);
   const double half = t_quantile_95(curve.dof) * error;
@@ -64,17 +83,22 @@ void set_mass_and_law(const SteadyFit& law, double log_mass, const Posterior& po
   Model& model = values.model;
   const Vehicle& vehicle = model.vehicle;
   model[ParameterId::kMassNorm] = from_last(posterior, log_mass, 1.0, source, method);
+  const double box_error = vehicle.yaw_inertia_kgm2 ? 0.0 : kBoxInertiaError;
   model[ParameterId::kInertiaNorm] =
-      from_last(posterior, log_mass, vehicle.inertia_kgm2() / vehicle.mass_kg, Source::kDerived,
+      from_last(with_error(posterior, box_error), log_mass,
+                vehicle.inertia_kgm2() / vehicle.mass_kg, Source::kDerived,
                 vehicle.yaw_inertia_kgm2 ? "m' and the given inertia" : "m' and the box formula");
   if (posterior.empty()) return;
   const Eigen::MatrixXd covariance = posterior.covariance();
   const Eigen::Index first = values.covariance.add_block(covariance);
   set_law_errors(Subject{}, law, posterior, first, values);  // Subject{}: the surge law
   const Eigen::Index last = first + covariance.rows() - 1;
-  for (const ParameterId id : {ParameterId::kMassNorm, ParameterId::kInertiaNorm}) {
-    values.covariance.set(id, {{last, *model[id].value}});
-  }
+  const double mass_norm = *model[ParameterId::kMassNorm].value;
+  const double inertia_norm = *model[ParameterId::kInertiaNorm].value;
+  values.covariance.set(ParameterId::kMassNorm, {{last, mass_norm}});
+  const Eigen::Index box =
+      values.covariance.add_block(Eigen::MatrixXd::Constant(1, 1, box_error * box_error));
+  values.covariance.set(ParameterId::kInertiaNorm, {{last, inertia_norm}, {box, inertia_norm}});
 }
 
 void set_joint(const JointFit& joint, bool is_inadequate, MainValues& values) {

@@ -12,6 +12,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/identify/coastdown/coast_alone.h"
 #include "awmr/identify/coastdown/coast_model.h"
+#include "awmr/identify/coastdown/stop_families.h"
 #include "awmr/identify/logs/log_report.h"
 #include "awmr/identify/tables/profile.h"
 #include "awmr/model/log_term_names.h"
@@ -337,6 +338,9 @@ void check(const SteadyFit& surge, const std::optional<TrialSet<StopTimeRow>>& s
   }
   if (stops) {
     check_mass(surge.law(), *stops, vehicle.mass_kg, mass_norm, deviation, result.findings);
+    for (Finding& finding : result.findings) {
+      if (finding.code == "fragile-mass") finding.message += result.other_family;
+    }
   }
   check_mass(surge.law(), curves, mass_norm, result.findings);
   result.by_grip = demanded_by_grip(surge, stops, curves, mass_norm);
@@ -380,6 +384,9 @@ MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<S
     check_noise(surge->alternatives, curves.empty() ? stop_file : curves.front().file,
                 !curves.empty(), result);
   }
+  // A coast-down curve measures g1 down to low speeds, so that m' needs no such average.
+  const bool is_named = family.requested && family.family;
+  if (stops && curves.empty() && !is_named) average_over_families(*surge, stops->rows, result);
   if (withdraws) withdraw_mass(result);
   check(law, stops, curves, vehicle, result);
   return result;

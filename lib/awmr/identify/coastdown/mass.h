@@ -28,6 +28,9 @@ struct MassResult {
   /// if neither failed. If only one of them failed, the other can still determine m': then both
   /// `reason` and `estimate` are set.
   std::string reason;
+  /// m' under the most probable other family, as a sentence for `fragile-mass`. Empty if m' was not
+  /// averaged over families.
+  std::string other_family;
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
 };

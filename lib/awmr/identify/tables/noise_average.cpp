@@ -71,7 +71,9 @@ std::vector<NoiseAlternative> noise_alternatives(const Subject& subject,
   if (options.knows_noise || options.loss != Loss::kSquared || !has_evidence(chosen)) {
     return alternatives;
   }
-  const double own = log_evidence(subject.points, problem.noise, chosen);
+  const bool is_expected = problem.noise == ErrorModel::kTime && only_timed(subject.points);
+  const double own = log_evidence(subject.points, problem.noise, chosen) +
+                     (is_expected ? std::log(kTimedOdds) : 0.0);
   if (!std::isfinite(own)) return alternatives;
   std::vector<double> logarithms{own};
   for (const ErrorModel noise :

@@ -14,6 +14,11 @@
 /// different units can be compared. g is the resistance, g' its derivative with respect to the rate
 /// w, z the dead zone and t the time of the run. |d e/d ln w| is then w g'/(g + z) for a relative
 /// error of the force, w g' for an absolute one, w for the rate and t for the time.
+///
+/// If the chosen fit has the error of the time because the rates follow from times alone
+/// (only_timed()), p_k of this error model is multiplied by kTimedOdds: a stop-watch has an error,
+/// and a few runs cannot show it. The fast runs, whose speed it makes uncertain, are also those
+/// that determine the curve there, so that their residuals are small.
 #pragma once
 
 #include <vector>
@@ -34,6 +39,9 @@ struct NoiseAlternative {
 /// distribution lies on each side of that value. With a weight of 5 %, at least 2.5 % of the
 /// mixture lies on each side, so the 95 % interval always contains the reported value.
 inline constexpr double kMinOwnWeight = 0.05;
+
+/// Prior odds of an error of the time against each other error model, for runs that were only timed.
+inline constexpr double kTimedOdds = 20.0;
 
 /// Returns the chosen fit, then the usable fits of the same family with the same free parameters
 /// under the other error models. Returns only the chosen fit if the user selected the error model

@@ -267,6 +267,9 @@ SubjectFit fit_rows(const Subject& subject, const SubjectOptions& options) {
     result.is_inadequate = !findings.empty() && result.problem.family == Family::kPower;
     append(result.findings, findings);
     result.undecided = undecided_fits(candidates, wanted, result.problem.family);
+    const ErrorModel likeliest =
+        std::ranges::max_element(result.alternatives, {}, &NoiseAlternative::weight)->noise;
+    result.compared = fit_families(subject, likeliest, result.problem.family);
   }
   return result;
 }

@@ -30,6 +30,9 @@ struct SubjectFit {
   /// the families are compared, then each family whose AICc is less than kTablesPlainlyBetter above
   /// it. Empty if the families were not compared.
   std::vector<FamilyCandidate> undecided;
+  /// Fits of all families under the most probable error model (SubjectFit::alternatives), the chosen
+  /// family first. Empty if the families were not compared.
+  std::vector<FamilyCandidate> compared;
   /// True if the chosen law does not describe the rows: another family than the power law describes
   /// them much better (`power-law-inadequate`), or left and right turns differ (`turns-differ`).
   /// The values that follow from the law then get no intervals, because the wrong law, not the

@@ -77,7 +77,19 @@ bool all_timed(const std::vector<SteadyPoint>& points) {
                      [](const SteadyPoint& p) { return p.travel && p.elapsed_s; });
 }
 
+bool only_timed(const std::vector<SteadyPoint>& points) {
+  constexpr double kRounding = 1e-9;
+  return std::all_of(points.begin(), points.end(), [](const SteadyPoint& p) {
+    return p.travel && p.elapsed_s &&
+           std::abs(p.rate * *p.elapsed_s - *p.travel) <= kRounding * *p.travel;
+  });
+}
+
 ErrorModel wanted_noise(const Subject& subject, const SubjectOptions& options) {
+  const bool is_assumed = options.noise == ErrorModel::kLogForce && !options.knows_noise;
+  if (is_assumed && options.loss == Loss::kSquared && only_timed(subject.points)) {
+    return ErrorModel::kTime;
+  }
   return options.noise.value_or(all_timed(subject.points) ? ErrorModel::kTime : ErrorModel::kSpeed);
 }
 
@@ -92,6 +104,22 @@ std::vector<FamilyCandidate> fit_candidates(const Subject& subject, const Subjec
                                              : fit_steady(problem, known[noise]);
     known[noise][family] = fit.theta;
     candidates.push_back(candidate_from(subject, problem, wanted, std::move(fit)));
+  }
+  return candidates;
+}
+
+std::vector<FamilyCandidate> fit_families(const Subject& subject, ErrorModel noise, Family first) {
+  std::vector<Family> families{first};
+  for (const Family family : subject.families) {
+    if (family != first) families.push_back(family);
+  }
+  std::vector<FamilyCandidate> candidates;
+  std::map<Family, TransformedParameters> known;
+  for (const Family family : families) {
+    if (subject.points.size() < coordinates_of(family).size()) continue;
+    const SteadyProblem problem{subject.points, family, noise, Loss::kSquared, subject.beta_range};
+    candidates.push_back({problem, fit_steady(problem, known), {}});
+    known[family] = candidates.back().fit.theta;
   }
   return candidates;
 }

@@ -35,7 +35,13 @@ struct FamilyCandidate {
 /// True if every run has a distance or an angle, and the time for it.
 bool all_timed(const std::vector<SteadyPoint>& points);
 
-/// The requested error model; if none was requested, time if all runs were timed, else speed.
+/// True if every run was timed and the table has no other measurement of the rate: the rate is the
+/// distance or the angle divided by the time. The error of the stop-watch is then the expected one.
+bool only_timed(const std::vector<SteadyPoint>& points);
+
+/// The requested error model; if none was requested, time if all runs were timed, else speed. The
+/// relative error of the force that identify() assumes for another family than the power law is
+/// replaced by the error of the time if the runs were only_timed().
 ErrorModel wanted_noise(const Subject& subject, const SubjectOptions& options);
 
 /// Makes the nonlinear fits of a table. With `options.side_by_side`: the power law under the error
@@ -44,6 +50,10 @@ ErrorModel wanted_noise(const Subject& subject, const SubjectOptions& options);
 /// more parameters than runs. `line`: log-linear fit of the power law, used as initial guess.
 std::vector<FamilyCandidate> fit_candidates(const Subject& subject, const SubjectOptions& options,
                                             ErrorModel wanted, const SteadyFit& line);
+
+/// Fits all families under the error model `noise`, without reports. The first is `first`. Skips
+/// families with more parameters than runs.
+std::vector<FamilyCandidate> fit_families(const Subject& subject, ErrorModel noise, Family first);
 
 /// The fit of a family under an error model; null if there is none.
 const FamilyCandidate* candidate_of(const std::vector<FamilyCandidate>& candidates, Family family,
