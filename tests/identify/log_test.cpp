@@ -197,8 +197,7 @@ TEST(Log, FindsTheBiasOfAGyroscopeWithoutAHeading) {
   EXPECT_TRUE(has_finding(*result, "gyro-bias"));
   EXPECT_FALSE(has_finding(*result, "side-pull"));
   const auto& parameters = result->model.record.reports.back().parameters;
-  const auto bias =
-      std::ranges::find(parameters, "bias.yaw_rate_radps", &EstimatorParameter::name);
+  const auto bias = std::ranges::find(parameters, "bias.yaw_rate_radps", &EstimatorParameter::name);
   ASSERT_TRUE(bias != parameters.end() && bias->std_error);
   EXPECT_NEAR(bias->value, kBias_radps, 4.5 * *bias->std_error);
   expect_recovered(*result, ParameterId::kYawAlpha, kTruths[1].a3, 4.5);

@@ -46,8 +46,9 @@ std::optional<FamilyOfCurves> family_of_stops(const SubjectFit& surge,
                                               const std::vector<StopTimeRow>& stops);
 
 /// Adds m' under the other families to `result.posterior` and to the reports of `result`, each with
-/// the probability of its family, and sets `result.other_family`. Their parameters have no counterpart in the chosen family, whose
-/// distribution therefore stays that of the chosen family; only ln m' differs.
+/// the probability of its family, and sets `result.other_family`. The parameters of these families
+/// have no counterpart in the chosen family, whose distribution therefore stays as it is; only ln m'
+/// differs.
 void average_over_families(const SubjectFit& surge, const std::vector<StopTimeRow>& stops,
                            MassResult& result);
 

@@ -290,11 +290,10 @@ FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
   between.fit = fit_first_family(between.logs, from, options);
   std::vector<FamilyFit> others = fits_at_rows(between.fit, logs, power_law);
   between.fit.options.effort = power_law.effort;
-  const bool is_usable = std::ranges::all_of(others, [](const auto& one) { return one.fit.usable; });
-  const FamilyFit& other =
-      *std::ranges::max_element(others, [](const FamilyFit& a, const FamilyFit& b) {
-        return aic_lead(b.fit, a.fit) > 0.0;
-      });
+  const bool is_usable =
+      std::ranges::all_of(others, [](const auto& one) { return one.fit.usable; });
+  const FamilyFit& other = *std::ranges::max_element(
+      others, [](const FamilyFit& a, const FamilyFit& b) { return aic_lead(b.fit, a.fit) > 0.0; });
   if (!from.effort->is_over() && between.fit.fit.usable && is_usable &&
       are_times_between_rows(between.fit.fit.change_times) &&
       aic_lead(between.fit.fit, other.fit) > kLikelier) {

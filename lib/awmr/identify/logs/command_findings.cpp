@@ -508,9 +508,9 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
           {file, 0, Severity::kWarning, is_convex ? "force-curve" : one.code, one.text(term, fit)});
     }
   }
-  for (const auto& more : {gyro_bias_findings(fit, file), position_findings(fit, file),
-                           compass_findings(fit, file),
-                           actuator_findings(fit, file), force_findings(fit, file)}) {
+  for (const auto& more :
+       {gyro_bias_findings(fit, file), position_findings(fit, file), compass_findings(fit, file),
+        actuator_findings(fit, file), force_findings(fit, file)}) {
     append(findings, more);
   }
   if (!withdrawn) return findings;

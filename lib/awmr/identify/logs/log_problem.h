@@ -28,11 +28,11 @@ inline constexpr double kPriorStd = 5.0;
 struct LogProblem {
   LogModel model;
   std::vector<FitWindow> windows;
-  std::vector<double> initial;   ///< one per quantity: coordinate of its initial guess
-  std::vector<Interval> bounds;  ///< one per quantity: bounds of its coordinate
+  std::vector<double> initial;                ///< one per quantity: coordinate of its initial guess
+  std::vector<Interval> bounds;               ///< one per quantity: bounds of its coordinate
   std::vector<ParameterId> optional_coulomb;  ///< LogFitOptions::optional_coulomb
-  Loss loss = Loss::kSquared;    ///< robust loss of the residuals; acts in settle_noise()
-  int threads = 0;               ///< 0: every core
+  Loss loss = Loss::kSquared;  ///< robust loss of the residuals; acts in settle_noise()
+  int threads = 0;             ///< 0: every core
   std::optional<std::chrono::steady_clock::time_point> deadline;  ///< end of all searches
   std::shared_ptr<Effort> effort;                                 ///< work of all searches
   bool ends_at_limit = true;  ///< true: a search stops when `effort` reaches its limit
