@@ -80,12 +80,15 @@ TEST(CommandSpeed, IsAtMostTheHighestSpeedOfTheTrialsElseThatOfFullForce) {
   // g1(u) = 4 F'max
   const double reachable_mps = std::pow(4.0 / 1.3268, 1.0 / 0.8933);
   EXPECT_NEAR(largest_mps(), reachable_mps, 1e-5);
+  TrialPoint run;
   for (const double speed_mps : {0.8, 1.66, 1.2}) {
-    model.record.trials.push_back({.kind = TrialKind::kSurge, .input = 1.0, .measured = speed_mps});
+    run.measured = speed_mps;
+    model.record.trials.push_back(run);
   }
   EXPECT_NEAR(largest_mps(), 1.66, 1e-6);
   // A speed that is a fault cannot be commanded.
-  model.record.trials.push_back({.kind = TrialKind::kSurge, .input = 1.0, .measured = 100.0});
+  run.measured = 100.0;
+  model.record.trials.push_back(run);
   const auto parameters = autopilot_parameters(model, kPaperGains, paper_inputs(), {});
   EXPECT_EQ(parameters->command_speed_max_mps, parameters->block.safety.speed_max_mps);
 }
