@@ -55,13 +55,15 @@ std::vector<fs::path> paths_of(const EmitCommand& command, const std::vector<Emi
   return paths;
 }
 
-std::string table_line(const char* name, const EmittedTable& table) {
+/// `unit`: of the speed or yaw rate. `unit_of_resistance`: divided by F_max.
+std::string table_line(const char* name, const char* unit, const char* unit_of_resistance,
+                       const EmittedTable& table) {
   return fmt::format(
-      "  {} resistance table: {} entries up to a speed of {:g}; largest error {:.1e} where the "
-      "resistance is below {:g},\n"
+      "  {} resistance table: {} entries up to {:g} {}; largest error {:.1e}{} where the "
+      "resistance is below {:g}{},\n"
       "    relative {:.1e} above\n",
-      name, table.lines.size(), table.top_speed, table.worst_error, table.split,
-      table.worst_relative_error);
+      name, table.lines.size(), table.top_speed, unit, table.worst_error, unit_of_resistance,
+      table.split, unit_of_resistance, table.worst_relative_error);
 }
 
 Json table_json(const EmittedTable& table) {
@@ -158,7 +160,8 @@ Status add_parameters(const Model& model, const ModeGains& gains, const EmitInpu
   if (command.emit.resistance != ResistanceForm::kTable) return {};
   add_coarse("surge", parameters.surge, command, outcome);
   add_coarse("yaw", parameters.yaw, command, outcome);
-  outcome.summary += table_line("surge", parameters.surge) + table_line("yaw", parameters.yaw);
+  outcome.summary += table_line("surge", "m/s", " F_max", parameters.surge) +
+                     table_line("yaw", "rad/s", " m F_max", parameters.yaw);
   Json json;
   json["tables"]["surge"] = table_json(parameters.surge);
   json["tables"]["yaw"] = table_json(parameters.yaw);

@@ -222,6 +222,13 @@ std::uint32_t crc_of(const AutopilotParameters& parameters) {
                              parameters.mode_gains ? &*parameters.mode_gains : nullptr);
 }
 
+void set_sketch_values(const SketchValues& sketch, AutopilotParameters& parameters) {
+  parameters.route_speed_mps = single(sketch.route_mps);
+  parameters.steady_error_rad = sketch.steady_error_rad;
+  parameters.on_course_rad = single(sketch.on_course_rad);
+  parameters.off_course_mrad = single(sketch.off_course_mrad);
+}
+
 }  // namespace
 
 bool is_power_law(const Plant<double>& plant) {
@@ -248,11 +255,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const ModeG
   AutopilotParameters parameters;
   parameters.resistance = options.resistance;
   parameters.sample_time_s = single(model.vehicle.sample_time_s);
-  const SketchValues sketch = sketch_values(plant, model.vehicle, gains, full_force);
-  parameters.route_speed_mps = single(sketch.route_mps);
-  parameters.steady_error_rad = sketch.steady_error_rad;
-  parameters.on_course_rad = single(sketch.on_course_rad);
-  parameters.off_course_mrad = single(sketch.off_course_mrad);
+  set_sketch_values(sketch_values(plant, model.vehicle, gains, full_force), parameters);
   set_position_filter(model.vehicle, parameters);
   parameters.parts = parts_with(options.parts, gains);
   parameters.observer = observer_of(gains.common().observer, parameters.sample_time_s);

@@ -74,7 +74,7 @@ std::vector<Finding> slope_findings(const LogFit& fit, const std::string& file) 
   if (!is_significant(slope)) return {};
   return {{file, 0, Severity::kWarning, "slope",
            fmt::format("a constant force pushes the vehicle towards the heading {:.0f} deg with "
-                       "{:.3f} +- {:.3f} m/s^2, like ground that falls by {:.2f} deg. The fit "
+                       "{:.2g} +- {:.1g} m/s^2, like ground that falls by {:.2g} deg. The fit "
                        "compensates for this, but simulations ignore it; record logs on level "
                        "ground",
                        degrees(std::atan2(y->value, x->value)), slope.value, slope.error,

@@ -231,6 +231,22 @@ std::vector<FamilyCandidate> undecided_fits(const std::vector<FamilyCandidate>& 
   return fits;
 }
 
+/// Compares the chosen family with the others: sets the findings about the power law,
+/// `is_inadequate`, `undecided` and `compared` of `result`.
+void compare_families(const Subject& subject, const SubjectOptions& options, ErrorModel wanted,
+                      const std::vector<FamilyCandidate>& candidates, SubjectFit& result) {
+  const Family chosen = result.problem.family;
+  if (options.family.family.value_or(Family::kPower) == Family::kPower) {
+    const auto findings = power_law_findings(subject, wanted, candidates, chosen);
+    result.is_inadequate = !findings.empty() && chosen == Family::kPower;
+    append(result.findings, findings);
+  }
+  result.undecided = undecided_fits(candidates, wanted, chosen);
+  const ErrorModel likeliest =
+      std::ranges::max_element(result.alternatives, {}, &NoiseAlternative::weight)->noise;
+  result.compared = fit_families(subject, likeliest, chosen);
+}
+
 SubjectFit fit_rows(const Subject& subject, const SubjectOptions& options) {
   SubjectFit result;
   if (!has_two_forces(subject.points)) return result;
@@ -260,16 +276,7 @@ SubjectFit fit_rows(const Subject& subject, const SubjectOptions& options) {
   if (!options.side_by_side) return result;
   add_diagnostics(subject, report, result);
   if (options.loss == Loss::kSquared) {
-    std::vector<Finding> findings;
-    if (options.family.family.value_or(Family::kPower) == Family::kPower) {
-      findings = power_law_findings(subject, wanted, candidates, result.problem.family);
-    }
-    result.is_inadequate = !findings.empty() && result.problem.family == Family::kPower;
-    append(result.findings, findings);
-    result.undecided = undecided_fits(candidates, wanted, result.problem.family);
-    const ErrorModel likeliest =
-        std::ranges::max_element(result.alternatives, {}, &NoiseAlternative::weight)->noise;
-    result.compared = fit_families(subject, likeliest, result.problem.family);
+    compare_families(subject, options, wanted, candidates, result);
   }
   return result;
 }
