@@ -220,7 +220,8 @@ void add_tune(CLI::App& app, Session& session) {
   auto command = std::make_shared<TuneCommand>();
   CLI::App* sub = add_command(app, session, "tune",
                               "Tune the gains of the heading and speed controllers, so that the "
-                              "sliding variable decays faster (T2) than the errors (T1)",
+                              "sliding variable decays faster (time constant T2) than the errors "
+                              "(T1)",
                               "awmr tune --model model.json -o gains.json",
                               [command] { return execute(*command); });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();

@@ -110,7 +110,7 @@ bool has_different_speeds(const std::vector<StopTimeRow>& stops) {
 std::string in_words(Family family, const MassEstimate& mass, double probability) {
   return fmt::format(
       ". With the family {}, whose probability is {:.2g}, mass_norm is {:.3g}; the "
-      "interval covers both",
+      "interval takes both families into account",
       name_of(family), probability, std::exp(mass.log_mass_norm));
 }
 

@@ -23,20 +23,27 @@ const remedies = {
   "unstable-gains": "tune again",
 };
 
+/// True for a warning whose remedy the model has already: a fit of logs uses another family than the
+/// power law if that is inadequate.
+function isResolved({code}, model) {
+  const families = [model.surge, model.yaw].map((law) => (law || {}).family || "power");
+  return code === "power-law-inadequate" && families.some((family) => family !== "power");
+}
+
 /// The findings that must be resolved before the vehicle is driven: every error, and the warnings
 /// with a remedy above. The first of each code. A missing interval is listed only without a cause.
-function blockingFindings(findings) {
+function blockingFindings({findings, model}) {
   const all = findings.filter((f) => f.severity === "error"
-    || (f.severity === "warning" && remedies[f.code]));
+    || (f.severity === "warning" && remedies[f.code] && !isResolved(f, model)));
   const first = all.filter((f, i) => all.findIndex((other) => other.code === f.code) === i);
   const causes = first.filter((f) => f.code !== "no-interval");
   return causes.length ? causes : first;
 }
 
 /// Sentences with the remedies of the blocking findings. Findings with the same remedy share one.
-function remedySteps(findings) {
+function remedySteps(data) {
   const remedyOf = ({code}) => remedies[code] || `see its message and “awmr explain ${code}”`;
-  return [...groupBy(blockingFindings(findings), remedyOf)].map(([remedy, of]) =>
+  return [...groupBy(blockingFindings(data), remedyOf)].map(([remedy, of]) =>
     `Before you drive, resolve ${of.map((f) => `“${f.code}”`).join(" and ")}: ${remedy}.`);
 }
 

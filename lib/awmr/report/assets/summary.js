@@ -35,7 +35,7 @@ function gainsTable(parent, gains) {
 /// The next steps for the user: first the remedies of blocking findings, then the most useful.
 function nextSteps(data) {
   const {model, gains, validation, suggest} = data;
-  const steps = remedySteps(data.findings);
+  const steps = remedySteps(data);
   if (data.header) steps.push("Include awmr_params.h (next to this page) in your sketch, or use " +
     "the sketches with the controller that awmr emit writes.");
   if (!gains) steps.push("Tune gains: awmr tune.");

@@ -28,7 +28,7 @@ function modelTile(list, data) {
   const {validation} = data;
   if (!validation) return tile(list, "doubt", "Model error", "not validated",
     "awmr validate compares the model with data");
-  const blocking = blockingFindings(data.findings);
+  const blocking = blockingFindings(data);
   const tone = validation.passed === false ? "bad" : blocking.length ? "doubt" : "good";
   const reason = blocking.length ? `; but ${blocking[0].code.replaceAll("-", " ")}` : "";
   const unseen = unseenLogs(data);
