@@ -237,10 +237,16 @@ TEST_F(ReportInBrowser, IsWholeWithoutGainsComparisonOrTurns) {
 }
 
 TEST_F(ReportInBrowser, BlockingFindingsAreTheFirstStepsAndTakeTheTickOfTheModel) {
-  const auto summary_with = [&](const Json& finding) {
+  const auto summary_with = [&](const Json& finding, bool has_coulomb = false) {
     const TemporaryDirectory directory;
     Json model = Json::parse(read_all(file("model.json")));
     if (!finding.is_null()) model["findings"].push_back(finding);
+    if (has_coulomb) {
+      model["surge"]["family"] = "coulomb-power";
+      model["surge"]["coulomb"] = {{"value", 0.0001},    {"std_error", nullptr},
+                                   {"ci95", nullptr},    {"unit", "1"},
+                                   {"source", "fitted"}, {"method", "trajectory"}};
+    }
     write_all(directory.path() / "model.json", model.dump());
     write_all(directory.path() / "awmr_params.h", "");
     for (const char* step : {"validate --model model.json -o validation.json", "report ."}) {
@@ -256,16 +262,21 @@ TEST_F(ReportInBrowser, BlockingFindingsAreTheFirstStepsAndTakeTheTickOfTheModel
   const Json plain = summary_with(nullptr);
   EXPECT_EQ(plain.at("tones").at(0), "good");
   EXPECT_THAT(first_step(plain), ::testing::HasSubstr("awmr_params.h"));
+  const auto warning = [](const char* code) {
+    return Json{{"file", "surge.csv"},
+                {"line", 0},
+                {"severity", "warning"},
+                {"code", code},
+                {"message", "an added finding"}};
+  };
   for (const char* code : {"no-interval", "model-inadequate", "power-law-inadequate"}) {
-    const Json summary = summary_with({{"file", "surge.csv"},
-                                       {"line", 0},
-                                       {"severity", "warning"},
-                                       {"code", code},
-                                       {"message", "an added finding"}});
+    const Json summary = summary_with(warning(code));
     EXPECT_EQ(summary.at("tones").at(0), "doubt") << code;
     EXPECT_THAT(first_step(summary), ::testing::HasSubstr(code));
     EXPECT_THAT(first_step(summary), ::testing::HasSubstr("identify again"));
   }
+  // A fit that has already used another family needs no remedy.
+  EXPECT_EQ(summary_with(warning("power-law-inadequate"), true).at("tones").at(0), "good");
 }
 
 TEST_F(ReportInBrowser, OnAPhoneNothingIsWiderThanThePageAndItOpensShort) {
