@@ -242,10 +242,9 @@ TEST_F(ReportInBrowser, BlockingFindingsAreTheFirstStepsAndTakeTheTickOfTheModel
     Json model = Json::parse(read_all(file("model.json")));
     if (!finding.is_null()) model["findings"].push_back(finding);
     if (has_coulomb) {
-      model["surge"]["family"] = "coulomb-power";
-      model["surge"]["coulomb"] = {{"value", 0.0001},    {"std_error", nullptr},
-                                   {"ci95", nullptr},    {"unit", "1"},
-                                   {"source", "fitted"}, {"method", "trajectory"}};
+      model["yaw"]["family"] = "coulomb-power";
+      model["yaw"]["coulomb"] = {{"value", 1e-6}, {"std_error", nullptr}, {"ci95", nullptr},
+                                 {"unit", "m"},   {"source", "fitted"},   {"method", "trajectory"}};
     }
     write_all(directory.path() / "model.json", model.dump());
     write_all(directory.path() / "awmr_params.h", "");
