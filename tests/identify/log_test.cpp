@@ -1,4 +1,5 @@
 /// Fit of driving logs: known truth, subsets of channels, gaps, and non-identifiable parameters.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -202,6 +203,45 @@ TEST(Log, FindsTheBiasOfAGyroscopeWithoutAHeading) {
   EXPECT_NEAR(bias->value, kBias_radps, 4.5 * *bias->std_error);
   expect_recovered(*result, ParameterId::kYawAlpha, kTruths[1].a3, 4.5);
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
+}
+
+TEST(Log, FindsTheBatteryVoltageAndTheGyroscopesBiasOfEachLog) {
+  constexpr double kWeaker = 0.94;
+  constexpr double kBias_radps[] = {0.01, 0.03, -0.02};
+  TrialData data;
+  for (int i = 0; i < 3; ++i) {
+    DrivingLog log =
+        drive(kTruths[1], 8 + i, {.duration_s = 15.0, .rate_hz = 50.0}, kPreciseSensors);
+    log.number = i + 1;
+    log.file = fmt::format("log_{}.csv", i + 1);
+    for (const LogChannel c : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
+      log[c].reset();
+    }
+    for (double& r : log[LogChannel::kYawRate]->value) r += kBias_radps[i];
+    if (log.number == 2) {
+      for (double& force : log.force_left) force /= kWeaker;
+      for (double& force : log.force_right) force /= kWeaker;
+    }
+    data.logs.push_back(std::move(log));
+  }
+  const auto result = identify(robot(), data, power_law(), {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "forces-differ"));
+  EXPECT_TRUE(has_finding(*result, "gyro-bias"));
+  EXPECT_FALSE(has_finding(*result, "logs-disagree"));
+  const auto& parameters = result->model.record.reports.back().parameters;
+  for (const auto& [name, truth] :
+       {std::pair("motor.force_scale.log_2", kWeaker - 1.0),
+        std::pair("motor.force_scale.log_3", 0.0), std::pair("bias.yaw_rate_radps", kBias_radps[0]),
+        std::pair("bias.yaw_rate_radps.log_2", kBias_radps[1] - kBias_radps[0]),
+        std::pair("bias.yaw_rate_radps.log_3", kBias_radps[2] - kBias_radps[0])}) {
+    const auto found = std::ranges::find(parameters, name, &EstimatorParameter::name);
+    ASSERT_TRUE(found != parameters.end() && found->std_error) << name;
+    EXPECT_NEAR(found->value, truth, 4.5 * *found->std_error) << name;
+  }
+  expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kYawAlpha, kTruths[1].a3, 4.5);
 }
 
 /// Shifts the commands of a log by this number of rows: to later rows if positive.

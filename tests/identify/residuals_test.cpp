@@ -10,6 +10,7 @@
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/interpolated_commands.h"
 #include "awmr/identify/logs/log_problem.h"
+#include "awmr/identify/logs/log_terms.h"
 #include "identify/synthetic_log.h"
 
 namespace awmr {
@@ -194,6 +195,16 @@ INSTANTIATE_TEST_SUITE_P(
                   {free_term(FreeQuantity::Kind::kForceImbalance), 0.06}}},
         TermCase{"DeadZoneDifference",
                  {{free_term(FreeQuantity::Kind::kDeadZoneDifference), 0.03}}},
+        TermCase{
+            "TermsOfOneLog",
+            {{in_log(free_term(FreeQuantity::Kind::kForceScale), 1), -0.07},
+             {in_log(free_term(FreeQuantity::Kind::kForceScale), 2), 0.3},
+             {free_term(FreeQuantity::Kind::kForceExponent), 0.2},
+             {in_log(free_term(FreeQuantity::Kind::kResistanceScale, LogChannel::kSpeed), 1), 0.15},
+             {in_log(free_term(FreeQuantity::Kind::kResistanceScale, LogChannel::kYawRate), 1),
+              -0.1},
+             {free_term(FreeQuantity::Kind::kBias, LogChannel::kYawRate), 0.01},
+             {in_log(free_term(FreeQuantity::Kind::kBias, LogChannel::kYawRate), 1), 0.02}}},
         TermCase{"AxleOffset", {{extra_force(ExtraForce::kAxleOffset), 0.3}}},
         TermCase{"Antenna",
                  {{free_term(FreeQuantity::Kind::kPositionAhead), 0.3},

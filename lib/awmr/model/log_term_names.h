@@ -2,6 +2,9 @@
 /// estimate. Steering: trim, dead band, asymmetry, curve, scale, largest rate of the servo. Motors:
 /// imbalance of left and right, nonlinear force. Forces on the vehicle: Stribeck friction, slope of
 /// the ground, ... Sensors: delay, averaging, filter, smoothing, wheel slip, mounting.
+///
+/// The name of an effect in only one of several logs ends with kOfLog and the number of the log, for
+/// example "motor.force_scale.log_2".
 #pragma once
 
 #include <array>
@@ -9,6 +12,7 @@
 
 namespace awmr {
 
+inline constexpr std::string_view kOfLog = ".log_";
 inline constexpr std::string_view kSteeringTrimName = "steering.trim_rad";
 inline constexpr std::string_view kSteeringDeadBandName = "steering.dead_band_rad";
 inline constexpr std::string_view kSteeringAsymmetryName = "steering.asymmetry";
@@ -22,6 +26,9 @@ inline constexpr std::string_view kForceFallName = "motor.fall_time_s";
 inline constexpr std::string_view kForceExponentName = "motor.exponent";
 inline constexpr std::string_view kForceSaturationName = "motor.saturation";
 inline constexpr std::string_view kSupplySagName = "motor.supply_sag";
+inline constexpr std::string_view kForceScaleName = "motor.force_scale";
+inline constexpr std::string_view kResistanceScalePrefix =
+    "resistance_scale.";  ///< followed by the column name of the speed or yaw rate
 inline constexpr std::string_view kSaturationSharpnessName = "motor.saturation_sharpness";
 /// Further forces. Stribeck friction (larger friction at low speed) with its speed scale, in surge
 /// and in yaw. Acceleration by a slope along x and y. Additional surge resistance in turns, with

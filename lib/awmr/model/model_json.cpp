@@ -35,11 +35,12 @@ bool is_estimated_name(std::string_view name) {
          name == kSteeringScaleName || name == kServoRateName || name == kForceImbalanceName ||
          name == kDeadZoneDifferenceName || name == kForceExponentName || name == kForceRiseName ||
          name == kForceFallName || name == kForceSaturationName ||
-         name == kSaturationSharpnessName || name == kSupplySagName || name == kSwayOffsetName ||
-         name == kSwayAngleName || name == kSpeedOffsetName || name == kPositionAheadName ||
-         name == kPositionLeftName || name == kCompassSinName || name == kCompassCosName ||
-         name == kCompassSin2Name || name == kCompassCos2Name || name == kMotorLagName ||
-         name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
+         name == kSaturationSharpnessName || name == kSupplySagName ||
+         name.starts_with(kForceScaleName) || name.starts_with(kResistanceScalePrefix) ||
+         name == kSwayOffsetName || name == kSwayAngleName || name == kSpeedOffsetName ||
+         name == kPositionAheadName || name == kPositionLeftName || name == kCompassSinName ||
+         name == kCompassCosName || name == kCompassSin2Name || name == kCompassCos2Name ||
+         name == kMotorLagName || name == kMassOverSurgeName || name == kCoulombOverSurgeName ||
          name == kQuadraticOverSurgeName || contains(kExtraForceNames, name) ||
          name.starts_with(kBiasPrefix) || name.starts_with(kSensorDelayPrefix) ||
          name.starts_with(kAveragingPrefix) || name.starts_with(kSensorLagPrefix) ||

@@ -68,6 +68,7 @@ void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
         !sound) {
       append(faults, sound.error().faults);
     }
+    log.number = static_cast<int>(trials.data.logs.size()) + 1;
     trials.data.logs.push_back(std::move(log));
   }
 }

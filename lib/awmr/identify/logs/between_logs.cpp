@@ -13,6 +13,7 @@
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/identifiability.h"
+#include "awmr/identify/logs/log_terms.h"
 #include "awmr/model/log_term_names.h"
 
 namespace awmr {
@@ -143,7 +144,9 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
   const double level = kLevel / static_cast<double>(common.fit.quantities.size());
   for (std::size_t i = 0; i < common.fit.quantities.size(); ++i) {
     const FreeQuantity& q = common.fit.quantities[i];
-    if (q.kind == FreeQuantity::Kind::kBias || !common.fit.refusal_reason[i].empty()) continue;
+    if (q.kind == FreeQuantity::Kind::kBias || q.log != 0) continue;
+    if (is_scaled_by_log(common.fit, q)) continue;
+    if (!common.fit.refusal_reason[i].empty()) continue;
     const ByLog by_log = collect(files, fits, q.name());
     if (by_log.files.size() < 2) continue;
     const Heterogeneity between = heterogeneity(by_log);
@@ -178,7 +181,8 @@ std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>
   constexpr double kWorthAFit = 9.0;
   std::map<std::string, std::pair<FreeQuantity, ByLog>> terms;
   for (const DrivingLog& log : logs) {
-    for (const auto& [term, test] : test_further_terms({log}, common, options)) {
+    for (const auto& [term, test] :
+         test_further_terms({log}, of_single_log(common, log), options)) {
       auto& [quantity, by_log] = terms[term.name()];
       quantity = term;
       add(log.file, test.value, test.noise_error * test.noise_error, by_log);
@@ -274,13 +278,16 @@ LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& commo
     if (t_s.back() - t_s.front() < kLongEnough_s) return {};
     return compare_parts(logs, options, common);
   }
+  options = without_log_terms(std::move(options));
+  std::vector<DrivingLog> alike;
   std::vector<std::string> files;
   std::vector<LogFit> fits;
   for (const DrivingLog& one : logs) {
+    alike.push_back(without_log_terms(one, common.fit));
     files.push_back(one.file);
-    fits.push_back(fit_logs({one}, options));
+    fits.push_back(fit_logs({alike.back()}, options));
   }
-  LogComparison found{disagreement_on_missing(logs, files, options, common.fit), std::nullopt};
+  LogComparison found{disagreement_on_missing(alike, files, options, common.fit), std::nullopt};
   for (LogDisagreement& one : disagreements_of(files, fits, common)) {
     one.withdraws = invalidates_all(one.name);
     found.disagreements.push_back(std::move(one));

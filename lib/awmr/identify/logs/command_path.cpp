@@ -88,6 +88,15 @@ void sag(const CommandPath& path, DelayedCommand& at) {
   at.command.force = {(1.0 - k * sum) * f.left, (1.0 - k * sum) * f.right};
 }
 
+/// Multiplies the forces by 1 + e, with the scale error e of the log.
+void scale_forces(double e, DelayedCommand& at) {
+  SideForces<double>& force = at.command.force;
+  scale_derivatives(1.0 + e, &SideForces<double>::left, at);
+  scale_derivatives(1.0 + e, &SideForces<double>::right, at);
+  at.by[Kind::kForceScale].force = force;
+  force = {(1.0 + e) * force.left, (1.0 + e) * force.right};
+}
+
 /// Multiplies the forces by 1 - e (left) and 1 + e (right), with the imbalance e.
 void unbalance(double e, DelayedCommand& at) {
   SideForces<double>& force = at.command.force;
@@ -145,7 +154,8 @@ void steer_by_linkage(const CommandPath& path, DelayedCommand& at) {
 
 /// Applies the constant errors of the commands in this order: stop of the command (if
 /// CommandPath::stop_limits_command), dead band, asymmetry, curve and scale of the
-/// linkage, trim, imbalance, exponent, saturation, sag of the supply, difference of the dead zones.
+/// linkage, trim, scale of the forces, imbalance, exponent, saturation, sag of the supply,
+/// difference of the dead zones.
 DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
   const CommandTerms& terms = path.terms;
   double& steering_rad = at.command.steering_rad;
@@ -160,6 +170,7 @@ DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
     steering_rad += terms.value(Kind::kSteeringTrim);
     at.by[Kind::kSteeringTrim].steering_rad = 1.0;
   }
+  if (terms[Kind::kForceScale]) scale_forces(terms.value(Kind::kForceScale), at);
   if (terms[Kind::kForceImbalance]) unbalance(terms.value(Kind::kForceImbalance), at);
   if (terms[Kind::kForceExponent]) raise_to_power(path, at);
   if (terms[Kind::kForceSaturation]) saturate(path, at);

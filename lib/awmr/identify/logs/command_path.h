@@ -44,7 +44,7 @@ struct TermColumns : ByKind<std::optional<TermColumn>, FreeQuantity::Kind::kComp
 };
 
 /// Last kind of the terms between the logged commands and the wheels; the first is kDelay.
-inline constexpr auto kLastOfCommands = FreeQuantity::Kind::kSupplySag;
+inline constexpr auto kLastOfCommands = FreeQuantity::Kind::kForceScale;
 
 struct CommandTerms : TermColumns {
   bool turns_slowly = false;  ///< RampTimes::turns_slowly

@@ -10,6 +10,7 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/identify/logs/further_terms.h"
+#include "awmr/identify/logs/log_terms.h"
 #include "awmr/identify/logs/steering_linkage.h"
 #include "awmr/identify/logs/term_trials.h"
 #include "awmr/trials/log_start.h"
@@ -66,6 +67,9 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
     add_partner(one, other);
     add_partner(other, one);
   }
+  for (const FreeQuantity& partner : partners_of(candidate.quantity, problem)) {
+    terms.push_back({partner, 0.0});
+  }
   if (candidate.quantity.kind == Kind::kForceSaturation) {
     const FreeQuantity sharpness = free_term(Kind::kSaturationSharpness);
     terms.push_back({sharpness, to_coordinate(sharpness.scale, kDefaultSharpness)});
@@ -116,21 +120,17 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
   return std::vector<FreeTerm>{{of_speed.quantity, of_speed.value}, {yaw, found->value}};
 }
 
-/// Short fits (one round) of `settled` with each of its candidate terms.
+/// Short fits (one round) of `settled` with each of the candidate terms, most significant first.
 class TermTrials {
  public:
-  explicit TermTrials(const NoiseIteration& settled)
-      : settled_(settled),
-        terms_(candidate_terms(settled.problem, settled.point)),
-        start_(terms_.empty() ? settled : start_of_trials(settled)),
-        lowest_(settled) {}
+  TermTrials(const NoiseIteration& settled, const std::vector<CandidateTerm>& terms)
+      : settled_(settled), terms_(terms), start_(start_of_trials(settled)), lowest_(settled) {}
 
   /// Makes the trials, and returns the fit with the lowest AIC. If no term lowers AIC, returns the
   /// fit with the most significant candidate if its score test exceeds 20 standard errors
   /// (kBeyondDoubt), else empty. Reason: in one round, AIC may rise although the term has a large
   /// effect, because the drift of the noise model had absorbed this effect before.
   std::optional<NoiseIteration> likeliest() {
-    if (terms_.empty()) return std::nullopt;
     for (const CandidateTerm& candidate : terms_) {
       const bool is_weak = candidate.significance < kComparable * terms_.front().significance;
       if (lowest_.best() && is_weak) break;
@@ -160,7 +160,9 @@ class TermTrials {
     const bool is_tried = contains(partners_, more.name()) || (is_sensor && has_sensor_delay_);
     if (is_tried || more.kind == Kind::kSmoothing) return;  // consider_smoothing()
     const std::vector<FreeTerm> added = with_companion(settled_.problem, candidate);
-    if (added.size() == 2) partners_.push_back(added.back().quantity.name());
+    if (added.size() == 2 || more.log != 0) {
+      for (const FreeTerm& partner : added) partners_.push_back(partner.quantity.name());
+    }
     const bool is_first = &candidate == &terms_.front();
     NoiseIteration fit = is_first ? trial_from_both(added) : trial(added);
     const bool may_be_wrong = more.is(ExtraForce::kTurnDrag) || more.is_ramp();
@@ -319,8 +321,8 @@ class TermTrials {
   }
 
   const NoiseIteration& settled_;
-  std::vector<CandidateTerm> terms_;  ///< most significant first
-  NoiseIteration start_;              ///< start_of_trials()
+  const std::vector<CandidateTerm>& terms_;  ///< not empty
+  NoiseIteration start_;                     ///< start_of_trials()
   LowestAic lowest_;
   std::optional<NoiseIteration> strongest_;  ///< trial of the candidate that is_beyond_doubt()
   std::vector<std::string> partners_;  ///< terms that were tried together with another candidate
@@ -346,13 +348,25 @@ Extended with_both_of_turning(NoiseIteration fit) {
                   std::vector<double>(other.size(), 0.0));
 }
 
-/// Returns a converged fit with one more free term. Empty if no term lowers AIC enough
-/// (settled_if_better()), or if the term is rejected (has_wrong_term()).
+/// Returns a converged fit with one more free term, selected by trials. Empty if no term lowers AIC
+/// enough (settled_if_better()), or if the term is rejected (has_wrong_term()). For long logs, the
+/// trials first use a sample of the windows, to save time.
 std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled) {
-  std::optional<NoiseIteration> more = TermTrials(settled).likeliest();
-  if (!more) return std::nullopt;
-  more = settled_if_better(settled, with_both_of_turning(*std::move(more)));
-  return more && !has_wrong_term(*more, settled) ? std::move(more) : std::nullopt;
+  const std::vector<CandidateTerm> terms = candidate_terms(settled.problem, settled.point);
+  if (terms.empty()) return std::nullopt;
+  const auto tested = [&](std::optional<NoiseIteration> more) -> std::optional<NoiseIteration> {
+    if (!more) return std::nullopt;
+    more = settled_if_better(settled, with_both_of_turning(*std::move(more)));
+    return more && !has_wrong_term(*more, settled) ? std::move(more) : std::nullopt;
+  };
+  if (is_long(settled.problem)) {
+    const std::size_t size = settled.problem.windows.size();
+    const NoiseIteration sample = with_some_windows(settled, spread(size, kSampleWindows));
+    if (const auto found = TermTrials(sample, terms).likeliest()) {
+      if (auto more = tested(with_all_windows(settled, *found))) return more;
+    }
+  }
+  return tested(TermTrials(settled, terms).likeliest());
 }
 
 /// Returns a fit in which averaging replaces the filters of speed and yaw rate, with one more term

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "awmr/core/containers.h"
+#include "awmr/identify/logs/log_terms.h"
 #include "awmr/identify/options.h"
 #include "awmr/model/log_term_names.h"
 
@@ -252,10 +253,11 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   add_term(problem, Kind::kSteeringDelay, has(quantities, ParameterId::kSteeringTimeConstant),
            found);
   add_steering(problem, found);
-  if (problem.model.noise.contains(LogChannel::kYawRate) &&
-      !has_kind(quantities, Kind::kBias, LogChannel::kYawRate)) {
-    found.push_back(free_term(Kind::kBias, LogChannel::kYawRate));
+  const FreeQuantity gyro_bias = free_term(Kind::kBias, LogChannel::kYawRate);
+  if (problem.model.noise.contains(LogChannel::kYawRate) && !has(quantities, gyro_bias.name())) {
+    found.push_back(gyro_bias);
   }
+  append(found, further_log_terms(problem));
   add_motors(problem, found);
   for (const ParameterId coulomb : problem.optional_coulomb) {
     if (!has(quantities, coulomb)) found.push_back(free_parameter(coulomb));

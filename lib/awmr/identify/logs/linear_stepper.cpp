@@ -82,14 +82,16 @@ LinearStepper::LinearStepper(const Plant<double>& plant, std::size_t columns,
       if (acts.id != p.id) continue;
       const auto rate = std::find(std::begin(kDriven), std::end(kDriven), acts.rate);
       const std::size_t place = at(rate - std::begin(kDriven)) * columns + p.column;
-      terms_.push_back({at(p.id), acts.rate, place, p.factor});
+      const bool adds = std::ranges::find(terms_, place, &Term::place) != terms_.end();
+      terms_.push_back({at(p.id), acts.rate, place, p.factor, adds});
     }
   }
 }
 
 void LinearStepper::note_driven(const DelayedCommand& command, double* driven) const {
   for (const Term& t : terms_) {
-    driven[t.place] = rates_.by_parameter[t.parameter].*t.rate * t.factor;
+    const double before = t.adds ? driven[t.place] : 0.0;
+    driven[t.place] = before + rates_.by_parameter[t.parameter].*t.rate * t.factor;
   }
   for (const ExtraColumn& extra : plant_.extra.columns) {
     const DrivenSlopes& by = rates_.by_extra[at(extra.force)];

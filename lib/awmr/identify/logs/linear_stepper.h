@@ -32,7 +32,8 @@ struct LinearMotion {
   }
 };
 
-/// A free model parameter, and its column among the unknowns of the fit.
+/// A model parameter that depends on an unknown of the fit, and the column of this unknown. Several
+/// parameters may depend on one unknown.
 struct ParameterColumn {
   ParameterId id;
   std::size_t column;
@@ -79,6 +80,7 @@ class LinearStepper {
     double DrivenSlopes::*rate;
     std::size_t place;  ///< index in a part of driven_, [kDrivenSize][columns]
     double factor;
+    bool adds;  ///< true: an earlier term has the same place
   };
   void note_driven(const DelayedCommand& command, double* driven) const;
   /// Adds the effect of an impulse of the forces on the derivatives with respect to `column`.

@@ -348,7 +348,7 @@ LogFitOptions with_terms_of(const LogFit& fit, LogFitOptions options) {
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
     if (q.kind == Kind::kParameter) continue;
-    if (q.kind == Kind::kBias) {
+    if (q.kind == Kind::kBias && q.log == 0) {
       if (!contains(options.biases, q.channel)) options.biases.push_back(q.channel);
     } else {
       options.terms.push_back({q, fit.coordinates[i]});

@@ -74,6 +74,8 @@ constexpr KindInfo kKinds[] = {
     {kForceSaturationName, {0.0, 0.95}},
     {kSaturationSharpnessName, {1.0, 20.0}, 1.0, Scale::kLogarithmic},
     {kSupplySagName, {0.0, 0.5}},
+    {kForceScaleName, {-0.9, 5.0}},
+    {kResistanceScalePrefix, {-0.9, 20.0}},
     {"", {}},
     {kBiasPrefix, {-1e6, 1e6}, 1.0},
     {kSensorDelayPrefix, {0.0, 1.0}},
@@ -111,7 +113,8 @@ std::string FreeQuantity::name() const {
   if (kind == Kind::kExtraForce) return std::string(kExtraForceNames[at(force)]);
   const bool is_slip_ratio = kind == Kind::kWheelSlip && is_ratio;
   const std::string_view of_kind = is_slip_ratio ? kSlipRatioPrefix : kKinds[at(kind)].name;
-  return fmt::format("{}{}", of_kind, of_kind.ends_with('.') ? info(channel).name : "");
+  const std::string_view of_channel = of_kind.ends_with('.') ? info(channel).name : "";
+  return fmt::format("{}{}{}", of_kind, of_channel, log ? fmt::format("{}{}", kOfLog, log) : "");
 }
 
 bool FreeQuantity::may_be_zero() const {
@@ -132,6 +135,12 @@ FreeQuantity free_parameter(ParameterId id) {
   // A term that only some resistance families have is a force or moment over F_max. A fifth of
   // F_max counts as a large change.
   return {.id = id, .scale = scale_of(id), .large_change = info(id).term ? 0.2 : 1.0};
+}
+
+std::array<ParameterId, 3> resistance_of(LogChannel axis) {
+  using enum ParameterId;
+  return axis == LogChannel::kSpeed ? std::array{kSurgeAlpha, kSurgeCoulomb, kSurgeQuadratic}
+                                    : std::array{kYawAlpha, kYawCoulomb, kYawQuadratic};
 }
 
 FreeQuantity free_term(FreeQuantity::Kind kind, LogChannel channel) {

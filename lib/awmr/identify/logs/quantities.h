@@ -2,6 +2,7 @@
 /// Private to identify/.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,6 +78,12 @@ struct FreeQuantity {
     ///
     /// (times F_max).
     kSupplySag,
+    /// Scale error e of the forces of one log: its wheel forces are 1 + e times their commands, for
+    /// example because of a lower battery voltage than in the first log (log_terms.h).
+    kForceScale,
+    /// Scale error e of the resistance of one log, in surge (channel kSpeed) or yaw (kYawRate): it
+    /// is 1 + e times that of the first log, for example on other ground (log_terms.h).
+    kResistanceScale,
     kExtraForce,   ///< a force that the model does not contain (extra_forces.h)
     kBias,         ///< constant offset of a channel
     kSensorDelay,  ///< latency of a channel, s
@@ -123,6 +130,8 @@ struct FreeQuantity {
   /// Channel, for kinds of one channel; kX for the delay of x and y.
   LogChannel channel = LogChannel::kX;
   ExtraForce force = ExtraForce::kSlopeX;  ///< for kExtraForce
+  /// Number of the only log in which this term acts (DrivingLog::number); 0: it acts in all logs.
+  int log = 0;
   Scale scale = Scale::kLinear;
   /// Change of the coordinate that counts as large, by kind. Standard deviations of priors and
   /// limits of identifiability are multiples of it:
@@ -143,6 +152,7 @@ struct FreeQuantity {
   /// may lie beyond the stop. False: the stop limits the angle.
   bool is_beyond_stop = false;
 
+  bool acts_in(const DrivingLog& one) const { return log == 0 || log == one.number; }
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
   bool is(ExtraForce one) const { return kind == Kind::kExtraForce && force == one; }
   bool is(Kind one) const { return kind == one; }
@@ -187,6 +197,10 @@ struct FreeQuantity {
 };
 
 FreeQuantity free_parameter(ParameterId id);
+
+/// Parameters to which the resistance of an axis is proportional. `axis`: kSpeed (surge) or
+/// kYawRate.
+std::array<ParameterId, 3> resistance_of(LogChannel axis);
 
 /// A quantity of this kind, except those that need more than the channel (functions below).
 /// `channel`: for kinds of one channel.

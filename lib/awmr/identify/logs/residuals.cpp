@@ -82,9 +82,12 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Simula
   const std::vector<Sample>& samples = window.samples();
   const auto visit_sample = [&](std::size_t i, double reading, std::vector<double>& by) {
     const LogChannel c = samples[i].channel;
-    const auto& bias = vehicle.sensors.bias[at(c)];
-    if (columns > 0 && bias) by[bias->column] += 1.0;
-    visit(i, reading + (bias ? bias->value : 0.0) - log[c]->value[samples[i].row], by);
+    for (const auto& [channel, bias] : vehicle.sensors.biases) {
+      if (channel != c) continue;
+      reading += bias.value;
+      if (columns > 0) by[bias.column] += 1.0;
+    }
+    visit(i, reading - log[c]->value[samples[i].row], by);
   };
   if (vehicle.sensors.any_smoothed()) {
     for_each_smoothed_reading(model, window, vehicle, columns, visit_sample);

@@ -78,7 +78,7 @@ void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const 
       sensors.slips.push_back({q.channel, {number, i}, q.is_ratio});
       break;
     case Kind::kBias:
-      sensors.bias[c] = {number, i};
+      sensors.biases.emplace_back(q.channel, TermColumn{number, i});
       break;
     default:
       if (q.kind >= Kind::kSwayOffset) sensors.mounting[q.kind] = {number, i};
@@ -104,6 +104,19 @@ void set_motor_dynamics(const LogModel& model, const FitWindow& window, CommandP
   path.ramps.emplace(log, begin, end, times);
 }
 
+/// Multiplies the resistance of one axis by 1 + e: its parameters in `values`, and the derivatives
+/// in `parameters`, to which it adds those with respect to e. `i`: column of e.
+void scale_resistance(LogChannel axis, double e, std::size_t i, ParameterValues<double>& values,
+                      std::vector<ParameterColumn>& parameters) {
+  for (const ParameterId id : resistance_of(axis)) {
+    for (ParameterColumn& column : parameters) {
+      if (column.id == id) column.factor *= 1.0 + e;
+    }
+    parameters.push_back({id, i, values[at(id)]});
+    values[at(id)] *= 1.0 + e;
+  }
+}
+
 }  // namespace
 
 bool SensorTerms::any_earlier() const {
@@ -123,6 +136,7 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
   ParameterValues<double> values = model.held;
   for (std::size_t i = 0; i < model.quantities.size(); ++i) {
     const FreeQuantity& q = model.quantities[i];
+    if (!q.acts_in(*window.rows.log)) continue;
     const double number = q.value(coordinates[i]);
     if (q.kind == Kind::kParameter) {
       values[at(q.id)] = number;
@@ -133,6 +147,11 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
     }
     set_command_term(q, number, i, window, vehicle.path);
     set_sensor_term(q, number, i, window, vehicle.sensors);
+  }
+  for (std::size_t i = 0; i < model.quantities.size(); ++i) {
+    const FreeQuantity& q = model.quantities[i];
+    if (q.kind != Kind::kResistanceScale || !q.acts_in(*window.rows.log)) continue;
+    scale_resistance(q.channel, coordinates[i], i, values, vehicle.parameters);
   }
   set_motor_dynamics(model, window, vehicle.path);
   vehicle.extra.has_motor_per_side =

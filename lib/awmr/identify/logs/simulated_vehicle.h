@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "awmr/identify/logs/channel_noise.h"
@@ -36,7 +37,7 @@ struct Smoothing {
 /// Errors of the sensors (bias, delay, ...) at one point of the search. For each error that the fit
 /// estimates, also its column among the unknowns of the fit.
 struct SensorTerms {
-  std::array<std::optional<TermColumn>, kChannelCount> bias{};
+  std::vector<std::pair<LogChannel, TermColumn>> biases;  ///< a channel's biases add up
   std::array<std::optional<TermColumn>, kChannelCount> delay{};
   std::array<std::optional<TermColumn>, kChannelCount> averaging{};
   std::array<std::optional<SensorFilter>, kChannelCount> lag{};  ///< without their damping

@@ -57,9 +57,7 @@ NoiseIteration with_largest_steering(const NoiseIteration& settled) {
   std::vector<std::size_t> largest;
   for (std::size_t i = 0; i < kSampleWindows; ++i) largest.push_back(by_range[i].second);
   std::ranges::sort(largest);
-  return settle_noise(with_windows(settled.problem, largest),
-                      with_windows(settled.problem, settled.point, largest),
-                      {.most = 1, .is_near = true});
+  return with_some_windows(settled, largest);
 }
 
 }  // namespace
@@ -91,6 +89,23 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
 NoiseIteration start_of_trials(NoiseIteration settled) {
   settled.point = settle_noise(with_white_noise(settled.problem), settled.point, {.most = 1}).point;
   return settled;
+}
+
+NoiseIteration with_some_windows(const NoiseIteration& settled,
+                                 const std::vector<std::size_t>& windows) {
+  return settle_noise(with_windows(settled.problem, windows),
+                      with_windows(settled.problem, settled.point, windows),
+                      {.most = 1, .is_near = true});
+}
+
+NoiseIteration with_all_windows(const NoiseIteration& settled, const NoiseIteration& found) {
+  NoiseIteration all = settled;
+  all.problem.model.quantities = found.problem.model.quantities;
+  all.problem.model.longest_step_s = found.problem.model.longest_step_s;
+  all.problem.initial = found.problem.initial;
+  all.problem.bounds = found.problem.bounds;
+  all.point.coordinates = found.point.coordinates;
+  return all;
 }
 
 std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, Extended from) {

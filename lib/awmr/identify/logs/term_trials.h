@@ -28,6 +28,14 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
 /// search for that optimum.
 NoiseIteration start_of_trials(NoiseIteration settled);
 
+/// A short fit (one round) of only these windows (indices) of `settled`.
+NoiseIteration with_some_windows(const NoiseIteration& settled,
+                                 const std::vector<std::size_t>& windows);
+
+/// The windows and initial states of `settled`, with the quantities and coordinates of `found`, a
+/// fit of some of these windows. A start for a fit of all windows.
+NoiseIteration with_all_windows(const NoiseIteration& settled, const NoiseIteration& found);
+
 /// Makes a converged fit that starts at `from`. Empty unless its AIC is lower than that of
 /// `settled` by more than 10.
 std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, Extended from);
