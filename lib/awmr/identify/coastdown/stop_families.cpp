@@ -11,6 +11,7 @@
 #include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
 #include "awmr/identify/coastdown/derived.h"
+#include "awmr/identify/tables/profile.h"
 
 namespace awmr {
 namespace {
