@@ -127,32 +127,6 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
                        least.value, most.value, kWhy)}};
 }
 
-/// Finding `gyro-bias` about a constant offset of the yaw rate. With a heading,
-/// log_consistency.cpp reports it.
-std::vector<Finding> gyro_bias_findings(const LogFit& fit, const std::string& file) {
-  std::vector<Finding> findings;
-  for (const FoundTerm& bias : found_terms(fit, Kind::kBias)) {
-    if (bias.quantity.channel != LogChannel::kYawRate) continue;
-    if (fit.noise.contains(LogChannel::kHeading)) continue;
-    if (const int log = bias.quantity.log; log != 0) {
-      findings.push_back(
-          {file, 0, Severity::kWarning, "gyro-bias",
-           fmt::format("the bias of the gyroscope in log {} differs by {:.3g} +- {:.2g} rad/s from "
-                       "that in the first log. The fit estimates a bias for each log; to avoid it, "
-                       "let the gyroscope settle at rest before a drive",
-                       log, bias.value, bias.error)});
-      continue;
-    }
-    findings.push_back(
-        {file, 0, Severity::kWarning, "gyro-bias",
-         fmt::format("yaw_rate_radps is {:.3g} +- {:.2g} rad/s while the vehicle does not turn: "
-                     "the gyroscope has a bias. The fit estimates this bias; to avoid it, let the "
-                     "gyroscope settle at rest before a drive",
-                     bias.value, bias.error)});
-  }
-  return findings;
-}
-
 /// Finding `compass-deviation` about the coefficients of the compass (FreeQuantity::Kind).
 std::vector<Finding> compass_findings(const LogFit& fit, const std::string& file) {
   std::vector<std::string> parts;
@@ -447,24 +421,6 @@ std::string sag_text(const FoundTerm& loss, const LogFit& fit) {
       loss.quantity.full_command, 100.0 * loss.value, 100.0 * loss.error, without_intervals(fit));
 }
 
-std::string force_scale_text(const FoundTerm& scale, const LogFit&) {
-  return fmt::format(
-      "the wheels push {:.1f} +- {:.1f} % {} in log {} than in the first log at the same command, "
-      "for example because the battery voltage differs. The fit estimates this difference. "
-      "F_max is that of the first log, so give first the log whose battery is as in normal use",
-      100.0 * std::abs(scale.value), 100.0 * scale.error, scale.value < 0.0 ? "less" : "more",
-      scale.quantity.log);
-}
-
-std::string resistance_scale_text(const FoundTerm& scale, const LogFit&) {
-  return fmt::format(
-      "the {} resistance is {:.1f} +- {:.1f} % {} in log {} than in the first log: other ground, "
-      "tyres or load. The fit estimates this difference; its values are those of the first log, so "
-      "give first the log of the ground on which the vehicle will drive",
-      scale.quantity.channel == LogChannel::kSpeed ? "surge" : "yaw", 100.0 * std::abs(scale.value),
-      100.0 * scale.error, scale.value < 0.0 ? "lower" : "higher", scale.quantity.log);
-}
-
 std::string ramp_text(const FoundTerm& time, const LogFit&) {
   return fmt::format(
       "the force of a motor {} by at most {:.2f} +- {:.2f} of F_max per second: a controller ramps "
@@ -501,8 +457,6 @@ constexpr TermFinding kTermFindings[] = {
     {Kind::kSteeringTrim, "steering-trim", trim_text},
     {Kind::kForceRise, "force-ramp", ramp_text},
     {Kind::kForceFall, "force-ramp", ramp_text},
-    {Kind::kForceScale, "forces-differ", force_scale_text},
-    {Kind::kResistanceScale, "resistance-differs", resistance_scale_text},
     {Kind::kForceImbalance, "force-imbalance", imbalance_text},
     {Kind::kDeadZoneDifference, "unequal-dead-zones", dead_zones_text},
     {Kind::kForceExponent, "force-saturation", exponent_text},
@@ -538,7 +492,7 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
     }
   }
   for (const auto& more :
-       {gyro_bias_findings(fit, file), position_findings(fit, file), compass_findings(fit, file),
+       {log_findings(fit, file), position_findings(fit, file), compass_findings(fit, file),
         actuator_findings(fit, file), force_findings(fit, file)}) {
     append(findings, more);
   }

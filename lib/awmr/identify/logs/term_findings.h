@@ -1,6 +1,6 @@
 /// Findings about terms of a fit that the model does not contain: delays, filters and constant
-/// errors of commands and sensors (command_findings.cpp), and forces (force_findings.cpp). Private
-/// to identify/.
+/// errors of commands and sensors (command_findings.cpp), forces (force_findings.cpp), and
+/// differences between logs (log_findings.cpp). Private to identify/.
 #pragma once
 
 #include <optional>
@@ -36,6 +36,10 @@ Identified length_of(const Identified& x, const Identified& y);
 /// Returns one finding for each force of extra_forces.h that differs from 0 by more than two
 /// standard errors.
 std::vector<Finding> force_findings(const LogFit& fit, const std::string& file);
+
+/// Returns findings about the bias of the gyroscope, and about differences between the logs
+/// (log_terms.h).
+std::vector<Finding> log_findings(const LogFit& fit, const std::string& file);
 
 /// Returns one finding for each significant term that the fit identifies
 /// (LogFit::is_significant()). A term is a delay, a lag, an error of commands or sensors, or a

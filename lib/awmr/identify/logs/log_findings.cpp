@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "awmr/identify/logs/log_terms.h"
+#include "awmr/identify/logs/term_findings.h"
+
+namespace awmr {
+namespace {
+
+using Kind = FreeQuantity::Kind;
+
+/// Differences of one log from the first log, each divided by the value in the first log. Empty if
+/// not estimated.
+struct LogDifference {
+  std::optional<Identified> force;
+  std::optional<Identified> surge;  ///< of the resistance
+  std::optional<Identified> yaw;
+};
+
+std::map<int, LogDifference> differences_of(const LogFit& fit) {
+  std::map<int, LogDifference> logs;
+  for (const FreeQuantity& q : fit.quantities) {
+    if (q.log == 0) continue;
+    const auto found = identified(fit, q.name());
+    if (q.kind == Kind::kForceScale) logs[q.log].force = found;
+    if (q.kind != Kind::kResistanceScale) continue;
+    (q.channel == LogChannel::kSpeed ? logs[q.log].surge : logs[q.log].yaw) = found;
+  }
+  return logs;
+}
+
+/// True if force and resistances, over the mass, differ from those of the first log by the same
+/// factor: the mass then differs, not they.
+bool is_of_mass(const LogDifference& log) {
+  constexpr double kErrors = 3.0;
+  if (!log.force || !log.surge || !is_significant(*log.force)) return false;
+  const auto agrees = [&](const std::optional<Identified>& other) {
+    return !other || std::abs(other->value - log.force->value) <
+                         kErrors * std::hypot(other->error, log.force->error);
+  };
+  return is_significant(*log.surge) && agrees(log.surge) && agrees(log.yaw);
+}
+
+/// Adds "2.0 +- 0.1 % less in log 3" to `texts`, if the difference is significant and at least half
+/// a percent. `more`, `less`: words for a positive and a negative difference.
+void add_text(const std::optional<Identified>& difference, int log, std::string_view more,
+              std::string_view less, std::vector<std::string>& texts) {
+  constexpr double kNegligible = 0.005;
+  if (!difference || !is_significant(*difference)) return;
+  if (std::abs(difference->value) < kNegligible) return;
+  texts.push_back(fmt::format("{:.1f} +- {:.1f} % {} in log {}", 100.0 * std::abs(difference->value),
+                              100.0 * difference->error, difference->value > 0.0 ? more : less,
+                              log));
+}
+
+/// Relative difference of the mass that corresponds to the factor 1 + e of the force over the mass.
+Identified of_mass(const Identified& force) {
+  const double factor = 1.0 / (1.0 + force.value);
+  return {factor - 1.0, factor * factor * force.error};
+}
+
+std::vector<Finding> difference_findings(const LogFit& fit, const std::string& file) {
+  std::vector<std::string> masses;
+  std::vector<std::string> forces;
+  std::vector<std::string> surge;
+  std::vector<std::string> yaw;
+  for (const auto& [number, log] : differences_of(fit)) {
+    if (is_of_mass(log)) {
+      add_text(of_mass(*log.force), number, "heavier", "lighter", masses);
+      continue;
+    }
+    add_text(log.force, number, "more", "less", forces);
+    add_text(log.surge, number, "higher", "lower", surge);
+    add_text(log.yaw, number, "higher", "lower", yaw);
+  }
+  std::vector<Finding> findings;
+  const auto report = [&](const char* code, const std::vector<std::string>& texts,
+                          std::string_view subject, std::string_view cause) {
+    if (texts.empty()) return;
+    findings.push_back({file, 0, Severity::kWarning, code,
+                        fmt::format("compared with the first log, {} {}: {}. The fit estimates "
+                                    "this difference, and its results are those of the first log",
+                                    subject, fmt::join(texts, ", "), cause)});
+  };
+  report("load-differs", masses, "the vehicle is", "a load, or other batteries");
+  report("forces-differ", forces, "the wheels push at the same command",
+         "the battery voltage differs, for example");
+  report("resistance-differs", surge, "the surge resistance is", "other ground or tyres");
+  report("resistance-differs", yaw, "the yaw resistance is", "other ground or tyres");
+  return findings;
+}
+
+/// Finding `gyro-bias` about a constant offset of the yaw rate. With a heading,
+/// log_consistency.cpp reports it.
+std::vector<Finding> gyro_bias_findings(const LogFit& fit, const std::string& file) {
+  if (fit.noise.contains(LogChannel::kHeading)) return {};
+  std::vector<std::string> offsets;
+  std::vector<std::string> differences;
+  for (const FreeQuantity& q : fit.quantities) {
+    if (q.kind != Kind::kBias || q.channel != LogChannel::kYawRate) continue;
+    const auto bias = identified(fit, q.name());
+    if (!bias || !is_significant(*bias)) continue;
+    const std::string text = fmt::format("{:.3g} +- {:.2g} rad/s", bias->value, bias->error);
+    if (q.log == 0) offsets.push_back(text);
+    if (q.log != 0) differences.push_back(fmt::format("{} in log {}", text, q.log));
+  }
+  if (offsets.empty() && differences.empty()) return {};
+  std::string what;
+  if (!offsets.empty()) {
+    what = fmt::format("yaw_rate_radps is {} while the vehicle does not turn", offsets.front());
+  }
+  if (!differences.empty()) {
+    what += fmt::format("{}compared with the first log, it is shifted by {}",
+                        what.empty() ? "" : "; ", fmt::join(differences, ", "));
+  }
+  return {{file, 0, Severity::kWarning, "gyro-bias",
+           what + ": the gyroscope has a bias. The fit estimates this bias; to avoid it, let the "
+                  "gyroscope settle at rest before a drive"}};
+}
+
+}  // namespace
+
+std::vector<Finding> log_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings = difference_findings(fit, file);
+  for (Finding& finding : gyro_bias_findings(fit, file)) findings.push_back(std::move(finding));
+  return findings;
+}
+
+}  // namespace awmr
