@@ -16,6 +16,7 @@
 #include "awmr/trials/log_start.h"
 #include "awmr/trials/replay.h"
 #include "identify/log_answers.h"
+#include "support/scratch_file.h"
 
 namespace awmr::testing {
 namespace {
@@ -205,8 +206,23 @@ TEST(Log, FindsTheBiasOfAGyroscopeWithoutAHeading) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
 }
 
-TEST(Log, FindsTheBatteryVoltageAndTheGyroscopesBiasOfEachLog) {
+/// Shifts the commands of a log by this number of rows: to later rows if positive.
+void move_commands(DrivingLog& log, int rows) {
+  const auto move = [rows](std::vector<double>& v) {
+    const std::vector<double> old = v;
+    const int last = static_cast<int>(v.size()) - 1;
+    for (int i = 0; i <= last; ++i) {
+      v[static_cast<std::size_t>(i)] = old[static_cast<std::size_t>(std::clamp(i - rows, 0, last))];
+    }
+  };
+  move(log.force_left);
+  move(log.force_right);
+  move(*log.steering_command_rad);
+}
+
+TEST(Log, FindsWhatDiffersBetweenLogs) {
   constexpr double kWeaker = 0.94;
+  constexpr int kRowsLate = 4;
   constexpr double kBias_radps[] = {0.01, 0.03, -0.02};
   TrialData data;
   for (int i = 0; i < 3; ++i) {
@@ -222,17 +238,20 @@ TEST(Log, FindsTheBatteryVoltageAndTheGyroscopesBiasOfEachLog) {
       for (double& force : log.force_left) force /= kWeaker;
       for (double& force : log.force_right) force /= kWeaker;
     }
+    if (log.number == 3) move_commands(log, kRowsLate);
     data.logs.push_back(std::move(log));
   }
   const auto result = identify(robot(), data, power_law(), {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "forces-differ"));
+  EXPECT_TRUE(has_finding(*result, "delay-differs"));
   EXPECT_TRUE(has_finding(*result, "gyro-bias"));
   EXPECT_FALSE(has_finding(*result, "logs-disagree"));
   const auto& parameters = result->model.record.reports.back().parameters;
   for (const auto& [name, truth] :
        {std::pair("motor.force_scale.log_2", kWeaker - 1.0),
         std::pair("motor.force_scale.log_3", 0.0), std::pair("bias.yaw_rate_radps", kBias_radps[0]),
+        std::pair("input_delay_s.log_2", 0.0), std::pair("input_delay_s.log_3", -0.02 * kRowsLate),
         std::pair("bias.yaw_rate_radps.log_2", kBias_radps[1] - kBias_radps[0]),
         std::pair("bias.yaw_rate_radps.log_3", kBias_radps[2] - kBias_radps[0])}) {
     const auto found = std::ranges::find(parameters, name, &EstimatorParameter::name);
@@ -242,20 +261,9 @@ TEST(Log, FindsTheBatteryVoltageAndTheGyroscopesBiasOfEachLog) {
   expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
   expect_recovered(*result, ParameterId::kYawAlpha, kTruths[1].a3, 4.5);
-}
-
-/// Shifts the commands of a log by this number of rows: to later rows if positive.
-void move_commands(DrivingLog& log, int rows) {
-  const auto move = [rows](std::vector<double>& v) {
-    const std::vector<double> old = v;
-    const int last = static_cast<int>(v.size()) - 1;
-    for (int i = 0; i <= last; ++i) {
-      v[static_cast<std::size_t>(i)] = old[static_cast<std::size_t>(std::clamp(i - rows, 0, last))];
-    }
-  };
-  move(log.force_left);
-  move(log.force_right);
-  move(*log.steering_command_rad);
+  const ScratchFile file("differs.model.json", "");
+  ASSERT_TRUE(write_model(result->model, file.path()));
+  EXPECT_TRUE(read_model(file.path()));
 }
 
 TEST_P(Logs, FindsALatencyOfCommandsAndOfTheirTimeStamps) {

@@ -197,7 +197,9 @@ INSTANTIATE_TEST_SUITE_P(
                  {{free_term(FreeQuantity::Kind::kDeadZoneDifference), 0.03}}},
         TermCase{
             "TermsOfOneLog",
-            {{in_log(free_term(FreeQuantity::Kind::kForceScale), 1), -0.07},
+            {{free_term(FreeQuantity::Kind::kDelay), 0.013},
+             {in_log(free_term(FreeQuantity::Kind::kDelay), 1), 0.021},
+             {in_log(free_term(FreeQuantity::Kind::kForceScale), 1), -0.07},
              {in_log(free_term(FreeQuantity::Kind::kForceScale), 2), 0.3},
              {free_term(FreeQuantity::Kind::kForceExponent), 0.2},
              {in_log(free_term(FreeQuantity::Kind::kResistanceScale, LogChannel::kSpeed), 1), 0.15},

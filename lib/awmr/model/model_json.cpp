@@ -29,8 +29,8 @@ constexpr double kSymmetryTolerance = 1e-9;
 
 /// True for the name of a parameter, or of another quantity that a fit estimates.
 bool is_estimated_name(std::string_view name) {
-  return parameter_by_name(name) || name == kInputDelayName || name == kSteeringDelayName ||
-         name == kSteeringTrimName || name == kSteeringDeadBandName ||
+  return parameter_by_name(name) || name.starts_with(kInputDelayName) ||
+         name == kSteeringDelayName || name == kSteeringTrimName || name == kSteeringDeadBandName ||
          name == kSteeringAsymmetryName || name == kSteeringCurveName ||
          name == kSteeringScaleName || name == kServoRateName || name == kForceImbalanceName ||
          name == kDeadZoneDifferenceName || name == kForceExponentName || name == kForceRiseName ||

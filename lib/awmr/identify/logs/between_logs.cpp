@@ -145,7 +145,7 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
   for (std::size_t i = 0; i < common.fit.quantities.size(); ++i) {
     const FreeQuantity& q = common.fit.quantities[i];
     if (q.kind == FreeQuantity::Kind::kBias || q.log != 0) continue;
-    if (is_scaled_by_log(common.fit, q)) continue;
+    if (differs_by_log(common.fit, q)) continue;
     if (!common.fit.refusal_reason[i].empty()) continue;
     const ByLog by_log = collect(files, fits, q.name());
     if (by_log.files.size() < 2) continue;

@@ -34,12 +34,12 @@ bool is_implausible(const FoundTerm& slip, const LogFit& fit) {
          slip.value > kLargestSlip && !fit.noise.contains(LogChannel::kX);
 }
 
-/// The terms of one kind that the fit identifies and that differ significantly from 0, and
+/// The terms of one kind, acting in all logs, that the fit identifies and that differ significantly from 0, and
 /// implausible slip in any case.
 std::vector<FoundTerm> found_terms(const LogFit& fit, Kind kind) {
   std::vector<FoundTerm> found;
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    if (fit.quantities[i].kind != kind) continue;
+    if (fit.quantities[i].kind != kind || fit.quantities[i].log != 0) continue;
     const FoundTerm term{fit.quantities[i], fit.coordinates[i], fit.error_of(i)};
     const bool is_identified = fit.refusal_reason[i].empty() && fit.is_significant(i);
     if (is_identified || is_implausible(term, fit)) found.push_back(term);

@@ -120,14 +120,15 @@ const NoiseLevels& noise_of_better(const LogFit& a, const LogFit& b) {
 }
 
 /// True if the errors of the fit are hardly larger than the sensor noise (LogFit::relative_error
-/// below 1.2), and all its delays, lags and command errors are significant.
+/// below 1.2), and all its delays, lags and command errors are significant. Terms of single logs do
+/// not count, because a fit contains those of all logs even if only one of them is significant.
 bool has_right_terms(const LogFit& fit) {
   constexpr double kErrorOfSensors = 1.2;
   if (!(fit.relative_error < kErrorOfSensors)) return false;
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
-    const bool is_term =
-        q.kind != FreeQuantity::Kind::kParameter && q.kind != FreeQuantity::Kind::kBias;
+    const bool is_term = q.kind != FreeQuantity::Kind::kParameter &&
+                         q.kind != FreeQuantity::Kind::kBias && q.log == 0;
     if (is_term && q.scale == Scale::kLinear && !q.is_form() && !fit.is_significant(i))
       return false;
   }

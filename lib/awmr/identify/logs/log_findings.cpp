@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "awmr/core/containers.h"
 #include "awmr/identify/logs/log_terms.h"
 #include "awmr/identify/logs/term_findings.h"
 
@@ -55,9 +56,28 @@ void add_text(const std::optional<Identified>& difference, int log, std::string_
   constexpr double kNegligible = 0.005;
   if (!difference || !is_significant(*difference)) return;
   if (std::abs(difference->value) < kNegligible) return;
-  texts.push_back(fmt::format("{:.1f} +- {:.1f} % {} in log {}", 100.0 * std::abs(difference->value),
-                              100.0 * difference->error, difference->value > 0.0 ? more : less,
-                              log));
+  texts.push_back(fmt::format("{:.1f} +- {:.1f} % {} in log {}",
+                              100.0 * std::abs(difference->value), 100.0 * difference->error,
+                              difference->value > 0.0 ? more : less, log));
+}
+
+/// The finding `delay-differs` about logs in which the vehicle responds later or earlier than in the
+/// first log.
+std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) {
+  std::vector<std::string> texts;
+  for (const FreeQuantity& q : fit.quantities) {
+    if (q.kind != Kind::kDelay || q.log == 0) continue;
+    const auto delay = identified(fit, q.name());
+    if (!delay || !is_significant(*delay)) continue;
+    texts.push_back(fmt::format("{:.3f} +- {:.3f} s {} in log {}", std::abs(delay->value),
+                                delay->error, delay->value > 0.0 ? "later" : "earlier", q.log));
+  }
+  if (texts.empty()) return {};
+  return {{file, 0, Severity::kWarning, "delay-differs",
+           fmt::format("compared with the first log, the vehicle responds to its commands {}: the "
+                       "clocks of commands and sensors, or the latency of the recording, differ. "
+                       "The fit estimates this difference; the delay is that of the first log",
+                       fmt::join(texts, ", "))}};
 }
 
 /// Relative difference of the mass that corresponds to the factor 1 + e of the force over the mass.
@@ -129,7 +149,8 @@ std::vector<Finding> gyro_bias_findings(const LogFit& fit, const std::string& fi
 
 std::vector<Finding> log_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings = difference_findings(fit, file);
-  for (Finding& finding : gyro_bias_findings(fit, file)) findings.push_back(std::move(finding));
+  append(findings, delay_findings(fit, file));
+  append(findings, gyro_bias_findings(fit, file));
   return findings;
 }
 

@@ -11,7 +11,13 @@ namespace {
 
 using Kind = FreeQuantity::Kind;
 
+constexpr Kind kKindsOfLogs[] = {Kind::kDelay, Kind::kForceScale, Kind::kResistanceScale,
+                                 Kind::kBias};
+
 FreeQuantity gyro_bias() { return free_term(Kind::kBias, LogChannel::kYawRate); }
+
+/// True for a term that adds to a term of the same kind in all logs.
+bool adds(Kind kind) { return kind == Kind::kDelay || kind == Kind::kBias; }
 
 bool drives(const DrivingLog& log) {
   const auto is_force = [](double force) { return force != 0.0; };
@@ -32,7 +38,8 @@ std::map<int, const DrivingLog*> later_logs(const LogProblem& problem) {
 /// Terms of this kind that can differ between logs and that this log can show.
 std::vector<FreeQuantity> terms_of(Kind kind, const LogProblem& problem, const DrivingLog& log) {
   std::vector<FreeQuantity> terms;
-  if (kind == Kind::kForceScale && drives(log)) terms.push_back(free_term(kind));
+  const bool is_of_commands = kind == Kind::kForceScale || kind == Kind::kDelay;
+  if (is_of_commands && drives(log)) terms.push_back(free_term(kind));
   if (kind == Kind::kBias && log[LogChannel::kYawRate]) terms.push_back(gyro_bias());
   if (kind != Kind::kResistanceScale) return terms;
   for (const LogChannel axis : {LogChannel::kSpeed, LogChannel::kYawRate}) {
@@ -53,6 +60,13 @@ std::vector<FreeQuantity> terms_of_logs(const LogProblem& problem, Kind kind) {
   return terms;
 }
 
+/// True for a parameter of the resistance whose scale is `term`.
+bool is_scaled(const FreeQuantity& parameter, const FreeQuantity& term) {
+  if (term.kind != Kind::kResistanceScale) return false;
+  const auto scaled = resistance_of(term.channel);
+  return std::ranges::any_of(scaled, [&](ParameterId id) { return parameter.is(id); });
+}
+
 }  // namespace
 
 FreeQuantity in_log(FreeQuantity term, int number) {
@@ -62,7 +76,7 @@ FreeQuantity in_log(FreeQuantity term, int number) {
 
 std::vector<FreeQuantity> further_log_terms(const LogProblem& problem) {
   std::vector<FreeQuantity> found;
-  for (const Kind kind : {Kind::kForceScale, Kind::kResistanceScale, Kind::kBias}) {
+  for (const Kind kind : kKindsOfLogs) {
     const auto is_of_log = [&](const FreeQuantity& q) { return q.kind == kind && q.log != 0; };
     if (std::ranges::any_of(problem.model.quantities, is_of_log)) continue;
     append(found, terms_of_logs(problem, kind));
@@ -74,9 +88,8 @@ std::vector<FreeQuantity> partners_of(const FreeQuantity& term, const LogProblem
   if (term.log == 0) return {};
   std::vector<FreeQuantity> partners = terms_of_logs(problem, term.kind);
   std::erase_if(partners, [&](const FreeQuantity& other) { return other.name() == term.name(); });
-  if (term.kind == Kind::kBias && !has(problem.model.quantities, gyro_bias().name())) {
-    partners.push_back(gyro_bias());
-  }
+  const FreeQuantity of_all = in_log(term, 0);
+  if (adds(term.kind) && !has(problem.model.quantities, of_all.name())) partners.push_back(of_all);
   return partners;
 }
 
@@ -104,26 +117,25 @@ LogFit of_single_log(LogFit fit, const DrivingLog& log) {
   for (std::size_t i = fit.quantities.size(); i-- > 0;) {
     const FreeQuantity term = fit.quantities[i];
     if (term.log == 0) continue;
-    const double scale = 1.0 + fit.coordinates[i];
+    const double value = fit.coordinates[i];
     const auto place = static_cast<std::ptrdiff_t>(i);
     fit.quantities.erase(fit.quantities.begin() + place);
     fit.coordinates.erase(fit.coordinates.begin() + place);
-    if (term.kind != Kind::kResistanceScale || !term.acts_in(log)) continue;
-    for (const ParameterId id : resistance_of(term.channel)) {
-      const auto k = place_of(fit.quantities, id);
-      if (!k) continue;
-      const FreeQuantity& q = fit.quantities[*k];
-      fit.coordinates[*k] = to_coordinate(q.scale, scale * q.value(fit.coordinates[*k]));
+    if (!term.acts_in(log)) continue;
+    for (std::size_t k = 0; k < fit.quantities.size(); ++k) {
+      const FreeQuantity& q = fit.quantities[k];
+      double& x = fit.coordinates[k];
+      if (term.kind == Kind::kDelay && q.is(Kind::kDelay)) x += value;
+      if (is_scaled(q, term)) x = to_coordinate(q.scale, (1.0 + value) * q.value(x));
     }
   }
   return fit;
 }
 
-bool is_scaled_by_log(const LogFit& fit, const FreeQuantity& parameter) {
+bool differs_by_log(const LogFit& fit, const FreeQuantity& quantity) {
   return std::ranges::any_of(fit.quantities, [&](const FreeQuantity& q) {
-    if (q.kind != Kind::kResistanceScale) return false;
-    const auto scaled = resistance_of(q.channel);
-    return std::ranges::any_of(scaled, [&](ParameterId id) { return parameter.is(id); });
+    return q.log != 0 &&
+           (is_scaled(quantity, q) || (adds(q.kind) && in_log(q, 0).name() == quantity.name()));
   });
 }
 

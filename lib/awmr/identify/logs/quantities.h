@@ -155,7 +155,7 @@ struct FreeQuantity {
   bool acts_in(const DrivingLog& one) const { return log == 0 || log == one.number; }
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
   bool is(ExtraForce one) const { return kind == Kind::kExtraForce && force == one; }
-  bool is(Kind one) const { return kind == one; }
+  bool is(Kind one) const { return kind == one && log == 0; }
   bool is(const std::string& one) const { return name() == one; }
   bool is_stribeck_speed() const {
     return is(ExtraForce::kSurgeStribeckSpeed) || is(ExtraForce::kYawStribeckSpeed);
@@ -266,7 +266,8 @@ bool is_slip(const FreeTerm& term);
 FreeTerm stribeck_speed_term(ExtraForce force, double fastest);
 inline constexpr double kStribeckShare = 0.1;  ///< initial guess of w_s over `fastest`
 
-/// Index of the first quantity that is `what`: a ParameterId, an ExtraForce, a Kind or a name.
+/// Index of the first quantity that is `what`: a ParameterId, an ExtraForce, a Kind (acting in all
+/// logs) or a name.
 /// Empty if there is none.
 template <class What>
 std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities, What what) {

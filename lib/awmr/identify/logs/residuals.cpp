@@ -87,6 +87,9 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Simula
       reading += bias.value;
       if (columns > 0) by[bias.column] += 1.0;
     }
+    if (columns > 0) {
+      for (const auto& [first, second] : vehicle.equal_columns) by[second] = by[first];
+    }
     visit(i, reading - log[c]->value[samples[i].row], by);
   };
   if (vehicle.sensors.any_smoothed()) {

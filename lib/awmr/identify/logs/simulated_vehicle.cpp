@@ -145,6 +145,11 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
       vehicle.extra[q.force] = number;
       vehicle.extra.columns.push_back({q.force, i, q.jacobian(coordinates[i])});
     }
+    if (auto& delay = vehicle.path.terms[Kind::kDelay]; q.kind == Kind::kDelay && delay) {
+      delay->value += number;
+      vehicle.equal_columns.emplace_back(delay->column, i);
+      continue;
+    }
     set_command_term(q, number, i, window, vehicle.path);
     set_sensor_term(q, number, i, window, vehicle.sensors);
   }

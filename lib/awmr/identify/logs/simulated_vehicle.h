@@ -60,6 +60,8 @@ struct SimulatedVehicle {
   CommandPath path;
   ExtraForces extra;
   SensorTerms sensors;
+  /// Columns with equal derivatives: (first, second). Only the first is computed by the simulation.
+  std::vector<std::pair<std::size_t, std::size_t>> equal_columns;
   State<double> initial{};
 };
 

@@ -202,13 +202,12 @@ std::optional<NoiseIteration> with_averaging_for_filters(const NoiseIteration& s
 std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& settled) {
   constexpr double kShare = 0.5;  // initial guess of the motor lag, divided by the fitted delay
   const std::vector<FreeQuantity>& quantities = settled.problem.model.quantities;
-  const auto delay = std::ranges::find(quantities, Kind::kDelay, &FreeQuantity::kind);
-  if (delay == quantities.end() || has_motor_lag(settled.problem.model)) return {};
-  const std::size_t place = at(delay - quantities.begin());
-  const double lag_s = kShare * settled.point.coordinates[place];
+  const auto delay = place_of(quantities, Kind::kDelay);
+  if (!delay || has_motor_lag(settled.problem.model)) return {};
+  const double lag_s = kShare * settled.point.coordinates[*delay];
   if (!(lag_s > 0.0)) return {};
   NoiseIteration from = settled;
-  from.point.coordinates[place] -= lag_s;
+  from.point.coordinates[*delay] -= lag_s;
   NoiseIteration lagged = tried(from, {{free_term(Kind::kMotorLag), lag_s}});
   if (!(akaike_of(lagged) < akaike_of(settled))) return {};
   return settled_if_better(settled, {std::move(lagged.problem), std::move(lagged.point)});
