@@ -360,8 +360,7 @@ std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled) {
     return more && !has_wrong_term(*more, settled) ? std::move(more) : std::nullopt;
   };
   if (is_long(settled.problem)) {
-    const std::size_t size = settled.problem.windows.size();
-    const NoiseIteration sample = with_some_windows(settled, spread(size, kSampleWindows));
+    const NoiseIteration sample = sample_of(settled);
     if (const auto found = TermTrials(sample, terms).likeliest()) {
       if (auto more = tested(with_all_windows(settled, *found))) return more;
     }

@@ -64,11 +64,12 @@ void add_text(const std::optional<Identified>& difference, int log, std::string_
 /// The finding `delay-differs` about logs in which the vehicle responds later or earlier than in the
 /// first log.
 std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) {
+  constexpr double kNegligible_s = 0.002;
   std::vector<std::string> texts;
   for (const FreeQuantity& q : fit.quantities) {
     if (q.kind != Kind::kDelay || q.log == 0) continue;
     const auto delay = identified(fit, q.name());
-    if (!delay || !is_significant(*delay)) continue;
+    if (!delay || !is_significant(*delay) || std::abs(delay->value) < kNegligible_s) continue;
     texts.push_back(fmt::format("{:.3f} +- {:.3f} s {} in log {}", std::abs(delay->value),
                                 delay->error, delay->value > 0.0 ? "later" : "earlier", q.log));
   }

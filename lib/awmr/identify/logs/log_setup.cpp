@@ -92,7 +92,7 @@ std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
 /// converge stops early. A log that the model describes well needs a twentieth of this.
 std::int64_t effort_limit(const std::vector<DrivingLog>& logs) {
   constexpr double kUsualEffort = 1.5e9;
-  constexpr double kPerSecond = 5e6;  // additional work per second of log
+  constexpr double kPerSecond = 3e6;  // additional work per second of log
   constexpr double kEvaluations = 12000.0;
   constexpr double kUsualColumns = 20.0;
   constexpr double kStep_s = 0.01;

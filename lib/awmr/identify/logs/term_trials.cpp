@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -40,6 +41,14 @@ double demanded_rate_radps(const NoiseIteration& settled) {
   const double lag_s = model.quantities[*lag].value(settled.point.coordinates[*lag]);
   return std::min((commands.hi - commands.lo) / lag_s,
                   radians(model.vehicle.steering_max_rate_degps));
+}
+
+/// A short fit (one round) of only these windows (indices) of `settled`.
+NoiseIteration with_some_windows(const NoiseIteration& settled,
+                                 const std::vector<std::size_t>& windows) {
+  return settle_noise(with_windows(settled.problem, windows),
+                      with_windows(settled.problem, settled.point, windows),
+                      {.most = 1, .is_near = true});
 }
 
 /// Returns a fit in which a rate limit of the servo shows most clearly. For long logs, this is a
@@ -91,11 +100,14 @@ NoiseIteration start_of_trials(NoiseIteration settled) {
   return settled;
 }
 
-NoiseIteration with_some_windows(const NoiseIteration& settled,
-                                 const std::vector<std::size_t>& windows) {
-  return settle_noise(with_windows(settled.problem, windows),
-                      with_windows(settled.problem, settled.point, windows),
-                      {.most = 1, .is_near = true});
+NoiseIteration sample_of(const NoiseIteration& settled) {
+  const std::vector<FitWindow>& windows = settled.problem.windows;
+  const std::vector<std::size_t> even = spread(windows.size(), kSampleWindows);
+  std::set<std::size_t> sample(even.begin(), even.end());
+  for (std::size_t w = 1; w < windows.size(); ++w) {
+    if (windows[w].rows.log != windows[w - 1].rows.log) sample.insert(w);
+  }
+  return with_some_windows(settled, {sample.begin(), sample.end()});
 }
 
 NoiseIteration with_all_windows(const NoiseIteration& settled, const NoiseIteration& found) {

@@ -28,9 +28,9 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
 /// search for that optimum.
 NoiseIteration start_of_trials(NoiseIteration settled);
 
-/// A short fit (one round) of only these windows (indices) of `settled`.
-NoiseIteration with_some_windows(const NoiseIteration& settled,
-                                 const std::vector<std::size_t>& windows);
+/// A short fit (one round) of a sample of the windows of `settled`: kSampleWindows evenly spaced
+/// ones, and the first of each log.
+NoiseIteration sample_of(const NoiseIteration& settled);
 
 /// The windows and initial states of `settled`, with the quantities and coordinates of `found`, a
 /// fit of some of these windows. A start for a fit of all windows.
