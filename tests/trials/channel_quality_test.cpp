@@ -252,6 +252,85 @@ TEST(ChannelQuality, RestIsNotStuckForTinyNumbers) {
   }
 }
 
+/// Spans of zeros that find_stuck_at_zero() finds.
+std::vector<RowSpan> stuck_at_zero(const Drive& d) {
+  ChannelQuality q = evaluate(d);
+  find_stuck_at_zero(times(), d.speed, d.command, q);
+  std::size_t stuck = 0;
+  for (const RowSpan& span : q.stuck_at_zero) {
+    stuck += span.end - span.begin;
+    for (std::size_t i = span.begin; i < span.end; ++i) EXPECT_FALSE(q.fresh[i]);
+  }
+  EXPECT_LE(fresh_rows(q), kRows - stuck);
+  return q.stuck_at_zero;
+}
+
+TEST(ChannelQuality, ZerosOfAStuckSensorAreFound) {
+  // The sensor is stuck in the middle, twice, and until the end.
+  const std::vector<std::vector<RowSpan>> cases{
+      {{700, 1000}}, {{300, 550}, {1100, 1350}}, {{1700, kRows}}};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (const std::vector<RowSpan>& spans : cases) {
+      Drive d = drive(seed, 0.02);
+      // A fast vehicle that accelerates from rest in the first 2 s.
+      for (std::size_t i = 0; i < kRows; ++i) {
+        d.speed[i] = (d.speed[i] + 0.3) * std::min(1.0, 0.01 * static_cast<double>(i));
+      }
+      for (const auto& [begin, end] : spans) {
+        for (std::size_t i = begin; i < end; ++i) d.speed[i] = 0.0;
+      }
+      const std::vector<RowSpan> found = stuck_at_zero(d);
+      ASSERT_EQ(found.size(), spans.size()) << seed;
+      EXPECT_EQ(found.front().begin, spans.front().begin);
+      EXPECT_EQ(found.back().end, spans.back().end);
+    }
+  }
+}
+
+/// Vehicle that stands for 4 s, with commands in its dead zone, and then drives for 4 s.
+struct StopAndGo {
+  std::uint64_t seed = 1;
+  double time_constant_s = 0.3;  ///< of the speed
+  double threshold = 0.0;        ///< the sensor reads smaller speeds as 0
+  double resolution = 0.0;       ///< of the sensor; 0: noise instead
+  double enabled_s = 0.0;        ///< time at which the motors are switched on
+};
+
+Drive stop_and_go(const StopAndGo& making) {
+  Random random(making.seed, 4);
+  Drive d;
+  double level = 0.0;
+  double speed = 0.0;
+  for (std::size_t i = 0; i < kRows; ++i) {
+    const double t_s = static_cast<double>(i) / kRate_hz;
+    if (i % 50 == 0) level = (i / 200) % 2 == 0 ? 0.1 : 0.4 + 0.6 * random.uniform();
+    const bool moves = level > 0.15 && t_s >= making.enabled_s;
+    speed += ((moves ? level : 0.0) - speed) / std::max(1.0, making.time_constant_s * kRate_hz);
+    const double read = making.resolution > 0.0 ? rounded(speed, making.resolution)
+                                                : speed + 0.01 * random.normal();
+    d.command.push_back(level);
+    d.speed.push_back(std::abs(read) < making.threshold ? 0.0 : read);
+  }
+  return d;
+}
+
+TEST(ChannelQuality, ZerosOfAVehicleAtRestAreNotStuck) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (const double enabled_s : {0.0, 6.0}) {
+      for (const double time_constant_s : {0.3, 0.01}) {  // the short one: a jump in one row
+        for (const double threshold : {0.05, 0.3}) {
+          const Drive noisy = stop_and_go({seed, time_constant_s, threshold, 0.0, enabled_s});
+          EXPECT_TRUE(stuck_at_zero(noisy).empty()) << seed << " " << threshold;
+        }
+        for (const double resolution : {0.001, 0.02, 0.2}) {
+          const Drive encoder = stop_and_go({seed, time_constant_s, 0.0, resolution, enabled_s});
+          EXPECT_TRUE(stuck_at_zero(encoder).empty()) << seed << " " << resolution;
+        }
+      }
+    }
+  }
+}
+
 /// A speed controller holds the speed within one quantisation step of the sensor, so the reading is
 /// constant while the command changes with the ground.
 TEST(ChannelQuality, ASteadySpeedThatIsKeptIsNotStuck) {

@@ -8,6 +8,18 @@
 #include "awmr/core/sample_quantile.h"
 
 namespace awmr {
+
+std::vector<RowSpan> equal_runs(std::span<const double> value) {
+  std::vector<RowSpan> runs;
+  for (std::size_t i = 0; i < value.size();) {
+    std::size_t end = i + 1;
+    while (end < value.size() && value[end] == value[i]) ++end;
+    runs.push_back({i, end});
+    i = end;
+  }
+  return runs;
+}
+
 namespace {
 
 /// If more than this fraction of the values repeat the value before, the sensor has a coarse
@@ -181,17 +193,6 @@ void find_spikes(std::span<const double> all, ChannelQuality& quality) {
 /// Values up to this fraction of the signal's largest magnitude count as 0: the vehicle is at rest.
 constexpr double kRestShare = 1e-6;
 
-std::vector<RowSpan> equal_runs(std::span<const double> value) {
-  std::vector<RowSpan> runs;
-  for (std::size_t i = 0; i < value.size();) {
-    std::size_t end = i + 1;
-    while (end < value.size() && value[end] == value[i]) ++end;
-    runs.push_back({i, end});
-    i = end;
-  }
-  return runs;
-}
-
 /// Returns the time, s, during which the command in `run` differs by more than `notable` from its
 /// value at the start of `run`. Compares means over 0.3 s, because a speed controller changes its
 /// command in every row, although the mean stays about the same. Leaves out the last 0.3 s of the
@@ -220,7 +221,7 @@ double changed_s(std::span<const double> t_s, std::span<const double> activity, 
 ///   - it is constant for at least eight times as many rows as the 90 % quantile of all constant
 ///     spans;
 ///   - the command changed for 0.3 s or more in this time.
-/// Not stuck are values near 0 (the vehicle rests), and values that stay constant so long more than
+/// Not stuck are values near 0 (the vehicle rests; find_stuck_at_zero()), and values that stay constant so long more than
 /// once (set-points).
 void find_stuck(std::span<const double> t_s, std::span<const double> value,
                 std::span<const double> activity, ChannelQuality& quality) {

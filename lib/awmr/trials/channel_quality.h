@@ -19,10 +19,11 @@ enum class Repeats {
 
 struct ChannelQuality {
   Repeats repeats = Repeats::kNone;
-  std::vector<bool> fresh;          ///< for each row: true if the value is a measurement
-  double quantum = 0.0;             ///< resolution, in the unit of the values; 0: not detected
-  std::vector<std::size_t> spikes;  ///< rows with a spike: the value jumps away and back
-  std::vector<RowSpan> stuck;       ///< rows with one repeated value while the command changed
+  std::vector<bool> fresh;             ///< for each row: true if the value is a measurement
+  double quantum = 0.0;                ///< resolution, in the unit of the values; 0: not detected
+  std::vector<std::size_t> spikes;     ///< rows with a spike: the value jumps away and back
+  std::vector<RowSpan> stuck;          ///< rows with one repeated value while the command changed
+  std::vector<RowSpan> stuck_at_zero;  ///< rows of zeros while the command drives the vehicle
   /// Number of rows in which the value is at an end of the sensor's range.
   std::size_t saturated = 0;
   /// Value at this end of the range, in the unit of the values.
@@ -44,6 +45,9 @@ double resolution_of_changes(std::span<const double> readings);
 /// The largest magnitude of the values; 0 if there are none.
 double largest_size(std::span<const double> values);
 
+/// Divides the values into runs of equal successive values.
+std::vector<RowSpan> equal_runs(std::span<const double> value);
+
 /// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the
 /// signal, by row, in any unit. A signal that is constant while `activity` changes is stuck.
 ///
@@ -56,6 +60,17 @@ double largest_size(std::span<const double> values);
 /// measurements.
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity);
+
+/// Finds zeros of a stuck sensor of a speed or a yaw rate: `stuck_at_zero`, no measurements. Zeros
+/// of a vehicle at rest are similar, so a run of zeros is stuck only if
+///   - it is long, compared with the other spans of equal values, and not at the start of the log;
+///   - the readings jump to 0 and from 0, each time by far more than readings usually change. One
+///     jump is sufficient if the log has no other long run of zeros;
+///   - the sensor reads values between 0 and half of this jump at other times;
+///   - the commands in the run are as large as those that move the vehicle at other times.
+/// Arguments: see channel_quality(), which must have computed `quality`.
+void find_stuck_at_zero(std::span<const double> t_s, std::span<const double> value,
+                        std::span<const double> activity, ChannelQuality& quality);
 
 /// Marks most readings of an encoder at rest as no measurements: a speed or yaw rate from counts is
 /// then exactly 0 in each row. As long as the count does not change, its rounding error does not

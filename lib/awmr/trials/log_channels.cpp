@@ -43,6 +43,14 @@ void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQualit
                      "changed; these readings are not used. Check the sensor and its connection",
                      about.column, log.t_s[span.begin], log.t_s[span.end - 1]));
   }
+  for (const RowSpan& span : quality.stuck_at_zero) {
+    warn(
+        span.begin, "stuck-sensor",
+        fmt::format("{} is stuck at 0 from {:.4g} s to {:.4g} s: it jumps to or from 0 between two "
+                    "rows, and the commands drive the vehicle; these readings are not used. Check "
+                    "the sensor and its connection",
+                    about.column, log.t_s[span.begin], log.t_s[span.end - 1]));
+  }
   if (quality.saturated > 0) {
     warn(0, "saturated-channel",
          fmt::format("{} is {:.4g} in {} rows and never beyond: the end of the sensor's range "
@@ -59,6 +67,11 @@ void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQualit
   }
 }
 
+/// True for a channel that is 0 if the vehicle is at rest.
+bool is_rate(LogChannel channel) {
+  return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate;
+}
+
 /// Returns, for each row, the command that moves a channel, in an arbitrary unit. Heading and yaw
 /// rate: about the yaw moment, from force difference and steering. Other channels: the thrust.
 std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
@@ -73,19 +86,27 @@ std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
   return activity;
 }
 
-/// Computes channel_quality() for a channel that has values only in `rows`. In the result for all
-/// rows of the log, rows without a value are no measurements.
+/// Computes channel_quality(), and for speed and yaw rate find_stuck_at_zero(), for a channel that
+/// has values only in `rows`. In the result for all rows of the log, rows without a value are no
+/// measurements.
 ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel channel,
                           const DrivingLog& log, const std::vector<double>& values) {
   const std::vector<double> activity = activity_for(channel, log);
-  if (rows.size() == log.rows()) return channel_quality(log.t_s, values, activity);
+  const auto check = [&](const auto& t_s, const auto& value, const auto& commands) {
+    ChannelQuality quality = channel_quality(t_s, value, commands);
+    if (is_rate(channel)) find_stuck_at_zero(t_s, value, commands, quality);
+    return quality;
+  };
+  if (rows.size() == log.rows()) return check(log.t_s, values, activity);
   ChannelQuality quality =
-      channel_quality(picked(log.t_s, rows), picked(values, rows), picked(activity, rows));
+      check(picked(log.t_s, rows), picked(values, rows), picked(activity, rows));
   std::vector<bool> fresh(log.rows(), false);
   for (std::size_t i = 0; i < rows.size(); ++i) fresh[rows[i]] = quality.fresh[i];
   quality.fresh = std::move(fresh);
   for (std::size_t& spike : quality.spikes) spike = rows[spike];
-  for (RowSpan& span : quality.stuck) span = {rows[span.begin], rows[span.end - 1] + 1};
+  for (std::vector<RowSpan>* const spans : {&quality.stuck, &quality.stuck_at_zero}) {
+    for (RowSpan& span : *spans) span = {rows[span.begin], rows[span.end - 1] + 1};
+  }
   return quality;
 }
 
@@ -147,7 +168,7 @@ Measured measured_of(LogChannel channel, const DrivingLog& log,
                        held_between(rows, std::move(values)), findings);
   }
   ChannelQuality quality = quality_in(rows, channel, log, values);
-  if (channel == LogChannel::kSpeed || channel == LogChannel::kYawRate) {
+  if (is_rate(channel)) {
     leave_out_rest(log.t_s, values, activity_for(channel, log), quality);
   }
   note_quality(channel, log, quality, findings);
