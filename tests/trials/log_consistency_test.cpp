@@ -171,6 +171,38 @@ TEST(LogConsistency, ScalesAndDirectionsOfSoundLogsAgree) {
   }
 }
 
+/// Keeps one reading in `every` of each channel except the yaw rate, and repeats it until the next
+/// one. The readings are 0.1 s late.
+DrivingLog with_slow_late_sensors(DrivingLog log, std::size_t every, bool held) {
+  constexpr std::size_t kLate = 5;
+  for (const LogChannel channel :
+       {LogChannel::kX, LogChannel::kY, LogChannel::kHeading, LogChannel::kSpeed}) {
+    Measured& one = *log[channel];
+    const std::vector<double> value = one.value;
+    one.held = held;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const std::size_t row = i - i % every;
+      one.value[i] = value[row - std::min(row, kLate)];
+      one.fresh[i] = row == i;
+    }
+  }
+  return log;
+}
+
+TEST(LogConsistency, SlowLateSensorsAgreeWithAFastGyroscope) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const DrivingLog log = sound_log(seed, {}, 5 * kRows);
+    for (const std::size_t every : {5U, 10U, 25U}) {
+      for (const bool held : {false, true}) {
+        const DrivingLog late = with_slow_late_sensors(log, every, held);
+        EXPECT_FALSE(gyro_bias_radps(late)) << seed << " " << every;
+        EXPECT_EQ(calibrations(late, "scale-mismatch"), 0) << seed << " " << every;
+        EXPECT_FALSE(heading_offset_rad(late)) << seed << " " << every;
+      }
+    }
+  }
+}
+
 TEST(LogConsistency, AMisalignedCompassAndScalesThatAreOffAreNamed) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     DrivingLog turned = sound_log(seed);

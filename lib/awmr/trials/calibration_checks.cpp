@@ -340,12 +340,13 @@ std::optional<Calibration> offset_of(const CourseFit& course) {
 }  // namespace
 
 std::optional<Calibration> heading_offset_rad(const DrivingLog& log) {
-  const auto course = course_fit(log);
+  const auto course = course_fit(with_interpolated_values(log));
   return course ? offset_of(*course) : std::nullopt;
 }
 
-std::optional<Calibration> gyro_bias_radps(const DrivingLog& log) {
-  if (!log[LogChannel::kHeading] || !log[LogChannel::kYawRate]) return std::nullopt;
+std::optional<Calibration> gyro_bias_radps(const DrivingLog& measured) {
+  if (!has_all(measured, {LogChannel::kHeading, LogChannel::kYawRate})) return std::nullopt;
+  const DrivingLog log = with_interpolated_values(measured);
   std::vector<double> offsets;
   for (const LogWindow& window : windows_of(log, kEvidenceWindow_s)) {
     const std::vector<double>& heading = log[LogChannel::kHeading]->value;
@@ -362,8 +363,9 @@ std::optional<Calibration> gyro_bias_radps(const DrivingLog& log) {
   return Calibration{bias, error};
 }
 
-std::vector<Finding> calibration_findings(const DrivingLog& log,
+std::vector<Finding> calibration_findings(const DrivingLog& measured,
                                           std::span<const ColumnMapping> mappings) {
+  const DrivingLog log = with_interpolated_values(measured);
   std::vector<Finding> findings;
   if (auto rate = rate_mismatch(log, mappings)) {
     findings.push_back(*std::move(rate));

@@ -17,6 +17,8 @@
 /// s is the ratio of the position's scale to the speed's scale (1 if both are right). phi is the
 /// angle from the heading to the course over ground (the direction of motion).
 ///
+/// Values between the readings of a slow sensor are interpolated (with_interpolated_values()).
+///
 /// In a log without a heading, psi is the integral of the yaw rate. Its unknown initial value does
 /// not change the length of a displacement, so the check then compares only lengths. The factors of
 /// c and d are then i k_c and k_d, with k_c and k_d real: sideslip acts across the heading, latency
@@ -67,7 +69,7 @@ std::optional<Calibration> heading_offset_rad(const DrivingLog& log);
 /// Bias of the yaw rate: measured yaw rate minus rate of change of the heading, rad/s; the median
 /// over windows of one second. Empty if its magnitude is below five standard errors. Empty also if
 /// heading or yaw rate was not measured, or with fewer than 10 windows.
-std::optional<Calibration> gyro_bias_radps(const DrivingLog& log);
+std::optional<Calibration> gyro_bias_radps(const DrivingLog& measured);
 
 /// Returns the warnings `heading-offset` (heading_offset_rad() is not empty) and `scale-mismatch`
 /// (the scales of two channels differ by more than 3 % and by more than five standard errors). If
@@ -75,7 +77,7 @@ std::optional<Calibration> gyro_bias_radps(const DrivingLog& log);
 /// positions, or both channels if the positions do not decide. The finding also names both channels
 /// if heading and yaw rate agree with each other, but not with the positions. `mappings`: column
 /// mappings used to read the log.
-std::vector<Finding> calibration_findings(const DrivingLog& log,
+std::vector<Finding> calibration_findings(const DrivingLog& measured,
                                           std::span<const ColumnMapping> mappings);
 
 }  // namespace awmr

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "awmr/core/option_text.h"
@@ -119,6 +120,25 @@ std::vector<LogWindow> windows_between(const std::vector<LogWindow>& windows) {
 }
 
 }  // namespace
+
+DrivingLog with_interpolated_values(const DrivingLog& log) {
+  DrivingLog result = log;
+  for (const LogChannel channel : kChannels) {
+    if (!result[channel]) continue;
+    const std::vector<bool>& fresh = result[channel]->fresh;
+    std::vector<double>& value = result[channel]->value;
+    std::optional<std::size_t> last;
+    for (std::size_t next = 0; next < value.size(); ++next) {
+      if (!fresh[next]) continue;
+      for (std::size_t i = last.value_or(next) + 1; i < next; ++i) {
+        const double share = (log.t_s[i] - log.t_s[*last]) / (log.t_s[next] - log.t_s[*last]);
+        value[i] = std::lerp(value[*last], value[next], share);
+      }
+      last = next;
+    }
+  }
+  return result;
+}
 
 double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& window) {
   const std::vector<double>& value = log[channel]->value;

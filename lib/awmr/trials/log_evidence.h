@@ -57,6 +57,12 @@ Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
 /// a new reading.
 std::vector<LogWindow> evidence_rows(const DrivingLog& log, double length_s);
 
+/// Returns the log with the values between the measurements of each channel interpolated linearly.
+/// A log repeats the last value of a slow sensor until the next one, on average half a sample
+/// interval late. This latency differs between the channels and between the ends of a window, so
+/// it would look like a bias or a wrong scale.
+DrivingLog with_interpolated_values(const DrivingLog& log);
+
 /// The integral of a channel over a window (trapezoidal rule).
 double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& window);
 
