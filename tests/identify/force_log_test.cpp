@@ -10,6 +10,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/linear_replay.h"
+#include "awmr/identify/logs/term_findings.h"
 #include "awmr/model/log_term_names.h"
 #include "identify/log_answers.h"
 
@@ -97,6 +98,22 @@ TEST(ForceLog, FindsStribeckFriction) {
   EXPECT_NEAR(result.model[ParameterId::kSurgeCoulomb].value.value_or(0.0), 0.2, 0.01);
   EXPECT_NEAR(result.model[ParameterId::kSurgeAlpha].value.value_or(0.0), 0.6, 0.02);
   expect_recovered(result, ParameterId::kInertiaNorm, robot_plant.inertia_norm, 4.5);
+}
+
+TEST(ForceLog, DoesNotReportDifferencesOfLessThanHalfAPercent) {
+  for (const ExtraForce force :
+       {ExtraForce::kBrakeForce, ExtraForce::kReverseForce, ExtraForce::kBackwardDrag}) {
+    LogFit fit;
+    fit.quantities = {extra_force(force)};
+    fit.refusal_reason = {""};
+    fit.covariance = Eigen::MatrixXd::Constant(1, 1, 1e-10);
+    for (const double excess : {0.0049, -0.0002, 0.0}) {
+      fit.coordinates = {excess};
+      EXPECT_TRUE(force_findings(fit, "log.csv").empty()) << excess;
+    }
+    fit.coordinates = {-0.006};
+    EXPECT_EQ(force_findings(fit, "log.csv").size(), 1U);
+  }
 }
 
 /// The forces of one test and their only finding.

@@ -663,6 +663,22 @@ TEST(Log, ReportsAnotherMassOnTheSecondDayAndWidensTheInterval) {
   EXPECT_GT(inertia.ci95->hi, 0.16 * heavy.mass_norm);
 }
 
+TEST(Log, ReportsADifferenceBetweenLogsBeforeAModelError) {
+  Truth heavy = kTruths[0];
+  heavy.mass_norm *= 2.0;
+  TrialData data;
+  data.logs = {drive(kTruths[0], 23, {.duration_s = 12.0, .rate_hz = 50.0}, kPreciseSensors),
+               drive(heavy, 24, {.duration_s = 12.0, .rate_hz = 50.0}, kPreciseSensors)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const std::vector<Finding>& findings = result->model.record.findings;
+  const auto place = [&](std::string_view code) {
+    return std::ranges::find(findings, code, &Finding::code) - findings.begin();
+  };
+  EXPECT_LT(place("logs-disagree"), place("model-inadequate"));
+  EXPECT_LT(place("model-inadequate"), std::ssize(findings));
+}
+
 TEST(Log, LogsOfOneVehicleAgree) {
   TrialData data;
   for (const std::uint64_t seed : {25U, 26U}) {

@@ -18,6 +18,10 @@ std::optional<Identified> significant(const LogFit& fit, ExtraForce force) {
   return found && is_significant(*found) ? found : std::nullopt;
 }
 
+/// A difference of forces or of resistance below this share is not reported: the warning would be
+/// about a smaller effect than any correction.
+constexpr double kMinReported = 0.005;
+
 struct FoundStribeck {
   std::string_view axis;  ///< "surge." or "yaw.", with which parameter names begin
   std::string_view what;
@@ -121,7 +125,7 @@ std::vector<Finding> turn_drag_findings(const LogFit& fit, const std::string& fi
 
 std::vector<Finding> backward_drag_findings(const LogFit& fit, const std::string& file) {
   const auto excess = significant(fit, ExtraForce::kBackwardDrag);
-  if (!excess) return {};
+  if (!excess || std::abs(excess->value) < kMinReported) return {};
   return {{file, 0, Severity::kWarning, "backward-drag",
            fmt::format("the resistance is {:.1f} +- {:.1f} % {} driving backward than forward. The "
                        "values of surge.* are those of forward motion, which simulations and gains "
@@ -135,7 +139,7 @@ std::vector<Finding> force_excess_findings(const LogFit& fit, const std::string&
   const auto add = [&](ExtraForce force, std::string_view code, std::string_view which,
                        std::string_view reference) {
     const auto excess = significant(fit, force);
-    if (!excess) return;
+    if (!excess || std::abs(excess->value) < kMinReported) return;
     findings.push_back(
         {file, 0, Severity::kWarning, std::string(code),
          fmt::format(

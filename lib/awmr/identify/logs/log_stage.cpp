@@ -280,7 +280,11 @@ void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogSt
   stage.withdraws_intervals =
       stage.withdraws_intervals || compared.missed || saturates ||
       std::ranges::any_of(compared.disagreements, &LogDisagreement::withdraws);
-  append(stage.findings, in_words(compared.disagreements, stage.withdraws_intervals));
+  // A difference between the logs is a cause of a model error, so it is reported first.
+  const std::vector<Finding> differences =
+      in_words(compared.disagreements, stage.withdraws_intervals);
+  stage.findings.insert(std::ranges::find(stage.findings, "model-inadequate", &Finding::code),
+                        differences.begin(), differences.end());
   if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
 }
 
