@@ -221,8 +221,8 @@ double changed_s(std::span<const double> t_s, std::span<const double> activity, 
 ///   - it is constant for at least eight times as many rows as the 90 % quantile of all constant
 ///     spans;
 ///   - the command changed for 0.3 s or more in this time.
-/// Not stuck are values near 0 (the vehicle rests; find_stuck_at_zero()), and values that stay constant so long more than
-/// once (set-points).
+/// Not stuck are values near 0 (the vehicle rests; find_stuck_at_zero()), and values that stay
+/// constant so long more than once (set-points).
 void find_stuck(std::span<const double> t_s, std::span<const double> value,
                 std::span<const double> activity, ChannelQuality& quality) {
   const std::vector<RowSpan> runs = equal_runs(value);
