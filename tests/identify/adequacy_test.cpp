@@ -107,8 +107,10 @@ TEST(WheelSlip, OfMoreThanAQuarterNeedsAPosition) {
 std::vector<std::string> codes_with(const FreeQuantity& quantity, double value) {
   LogFit fit = fit_with_term(quantity, value);
   fit.change_reach_s = 0.01;
+  DrivingLog log;
+  log.file = "log.csv";
   std::vector<std::string> codes;
-  for (const Finding& finding : command_and_sensor_findings(fit, false, "log.csv")) {
+  for (const Finding& finding : command_and_sensor_findings(fit, false, {log})) {
     codes.push_back(finding.code);
   }
   return codes;

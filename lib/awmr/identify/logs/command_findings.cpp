@@ -481,7 +481,8 @@ bool saturates_much(const LogFit& fit) {
 }
 
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
-                                                 const std::string& file) {
+                                                 const std::vector<DrivingLog>& logs) {
+  const std::string& file = logs.front().file;
   std::vector<Finding> findings;
   for (const TermFinding& one : kTermFindings) {
     for (const FoundTerm& term : found_terms(fit, one.kind)) {
@@ -492,7 +493,7 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
     }
   }
   for (const auto& more :
-       {log_findings(fit, file), position_findings(fit, file), compass_findings(fit, file),
+       {log_findings(fit, logs), position_findings(fit, file), compass_findings(fit, file),
         actuator_findings(fit, file), force_findings(fit, file)}) {
     append(findings, more);
   }

@@ -245,10 +245,10 @@ void doubt_force_terms(std::vector<Finding>& findings) {
 
 /// Copies the parameters that the fit identifies to `stage`. If a parameter already has a value
 /// from other trials, copies it only if `overrule` is true.
-void take(const LogFit& fit, const Model& model, bool overrule, const std::string& file,
+void take(const LogFit& fit, const Model& model, bool overrule, const std::vector<DrivingLog>& logs,
           LogStage& stage) {
   stage.block = fit.covariance;
-  append(stage.findings, command_and_sensor_findings(fit, stage.withdraws_intervals, file));
+  append(stage.findings, command_and_sensor_findings(fit, stage.withdraws_intervals, logs));
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
     const bool parameter = q.kind == FreeQuantity::Kind::kParameter;
@@ -259,7 +259,8 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
     }
     if (!parameter || stage.reasons.contains(q.id)) continue;
     const Estimate& known = model[q.id];
-    if (const auto finding = disagreement(fit, i, known, file)) stage.findings.push_back(*finding);
+    if (const auto finding = disagreement(fit, i, known, logs.front().file))
+      stage.findings.push_back(*finding);
     const bool other_trial = known.value && known.source != Source::kGiven;
     if (other_trial && !overrule) continue;
     const EstimatorParameter& found = fit.report.parameters[i];
@@ -369,7 +370,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
     }
     return stage;
   }
-  take(chosen.fit, model, overrule, file, stage);
+  take(chosen.fit, model, overrule, logs, stage);
   if (has_changed) doubt_force_terms(stage.findings);
   append(stage.findings, refused_terms(chosen.fit, options.terms, file));
   if (speed_control) stage.findings.push_back(speed_control_finding(*speed_control, file));

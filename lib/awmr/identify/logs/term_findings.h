@@ -38,15 +38,16 @@ Identified length_of(const Identified& x, const Identified& y);
 std::vector<Finding> force_findings(const LogFit& fit, const std::string& file);
 
 /// Returns findings about the bias of the gyroscope, and about differences between the logs
-/// (log_terms.h).
-std::vector<Finding> log_findings(const LogFit& fit, const std::string& file);
+/// (log_terms.h). `logs`: the fitted logs.
+std::vector<Finding> log_findings(const LogFit& fit, const std::vector<DrivingLog>& logs);
 
 /// Returns one finding for each significant term that the fit identifies
 /// (LogFit::is_significant()). A term is a delay, a lag, an error of commands or sensors, or a
 /// force of extra_forces.h (force_findings()). `withdrawn`: true if the fit has no valid intervals;
-/// the messages then say so. `file`: log file that the findings name.
+/// the messages then say so. `logs`: the fitted logs; most findings name
+/// the file of the first.
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
-                                                 const std::string& file);
+                                                 const std::vector<DrivingLog>& logs);
 
 /// True if the fit has found a large saturation of the forces: the largest command loses more than
 /// 5 % of its force, or the exponent of the forces is below 0.95. The intervals of such a fit are
