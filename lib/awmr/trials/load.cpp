@@ -61,14 +61,15 @@ void add_steady_runs(Trials& trials) {
 /// faults are added like all others, so that later checks can report further faults.
 void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
               const TrialOptions& options, Trials& trials, std::vector<Fault>& faults) {
+  const int number = trials.data.logs.empty() ? 1 : trials.data.logs.back().number + 1;
   for (DrivingLog& log : logs) {
+    log.number = number;
     const std::string place =
         logs.size() == 1 ? path.string() : path.string() + ":" + std::to_string(log.line.front());
     if (const auto sound = check_consistency(log, place, trials.vehicle, options, trials.findings);
         !sound) {
       append(faults, sound.error().faults);
     }
-    log.number = static_cast<int>(trials.data.logs.size()) + 1;
     trials.data.logs.push_back(std::move(log));
   }
 }

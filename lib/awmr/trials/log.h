@@ -51,7 +51,7 @@ struct RowSpan {
 /// One run of a driving log. Every vector has one entry per row.
 struct DrivingLog {
   std::string file;
-  int number = 1;         ///< position among the logs of one identification, from 1
+  int number = 1;         ///< position of its file among the log files, from 1
   std::vector<int> line;  ///< by row: line in the file
   /// Column mappings that were used: indices in TrialOptions::columns.
   std::vector<std::size_t> mapped;

@@ -25,13 +25,15 @@ bool drives(const DrivingLog& log) {
          std::ranges::any_of(log.force_right, is_force);
 }
 
-/// The logs of the problem but the first, by their numbers.
+/// The logs of the problem but the first, by their numbers. Empty for more than kMostLogs logs.
 std::map<int, const DrivingLog*> later_logs(const LogProblem& problem) {
+  constexpr std::size_t kMostLogs = 12;
   std::map<int, const DrivingLog*> logs;
   for (const FitWindow& window : problem.windows) {
     logs.emplace(window.rows.log->number, window.rows.log);
   }
-  if (!logs.empty()) logs.erase(logs.begin());
+  if (logs.empty() || logs.size() > kMostLogs) return {};
+  logs.erase(logs.begin());
   return logs;
 }
 

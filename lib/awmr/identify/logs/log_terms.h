@@ -1,7 +1,7 @@
 /// Terms that differ between the logs of one vehicle: the scale of the wheel forces (battery
 /// voltage), the scale of the resistance (ground), the delay of the commands (time stamps) and the
-/// bias of the gyroscope. Each is relative to the first log, whose forces define F_max. Private to
-/// identify/.
+/// bias of the gyroscope. Each is relative to the first log, whose forces define F_max. All runs of
+/// one file count as one log here. Private to identify/.
 #pragma once
 
 #include <vector>
@@ -16,8 +16,9 @@ FreeQuantity in_log(FreeQuantity term, int number);
 
 /// Terms of single logs that the fit does not contain: for each log but the first, the scale of its
 /// forces, the scales of its surge and yaw resistance, and the delay of its commands and the bias of
-/// its gyroscope beyond those of all logs. Empty for a single log. A fit contains a kind of these
-/// terms for all logs but the first, or for none.
+/// its gyroscope beyond those of all logs. Empty for a single log, and for more than 12 logs, which
+/// would make the search too long. A fit contains a kind of these terms for all logs but the first,
+/// or for none.
 std::vector<FreeQuantity> further_log_terms(const LogProblem& problem);
 
 /// The terms that belong into the fit with `term` if it is a term of a single log: the others of
