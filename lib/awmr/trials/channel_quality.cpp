@@ -8,18 +8,6 @@
 #include "awmr/core/sample_quantile.h"
 
 namespace awmr {
-
-std::vector<RowSpan> equal_runs(std::span<const double> value) {
-  std::vector<RowSpan> runs;
-  for (std::size_t i = 0; i < value.size();) {
-    std::size_t end = i + 1;
-    while (end < value.size() && value[end] == value[i]) ++end;
-    runs.push_back({i, end});
-    i = end;
-  }
-  return runs;
-}
-
 namespace {
 
 /// If more than this fraction of the values repeat the value before, the sensor has a coarse
@@ -193,6 +181,37 @@ void find_spikes(std::span<const double> all, ChannelQuality& quality) {
 /// Values up to this fraction of the signal's largest magnitude count as 0: the vehicle is at rest.
 constexpr double kRestShare = 1e-6;
 
+/// Divides the values into runs of equal successive values.
+std::vector<RowSpan> equal_runs(std::span<const double> value) {
+  std::vector<RowSpan> runs;
+  for (std::size_t i = 0; i < value.size();) {
+    std::size_t end = i + 1;
+    while (end < value.size() && value[end] == value[i]) ++end;
+    runs.push_back({i, end});
+    i = end;
+  }
+  return runs;
+}
+
+}  // namespace
+
+std::vector<RowSpan> long_constant_runs(std::span<const double> t_s,
+                                        std::span<const double> value) {
+  constexpr double kLong_s = 1.0;
+  constexpr double kTimesUsual = 8.0;
+  std::vector<RowSpan> runs = equal_runs(value);
+  std::vector<double> lengths;
+  for (const RowSpan& run : runs) lengths.push_back(static_cast<double>(run.end - run.begin));
+  const double shortest = kTimesUsual * quantile(lengths, 0.9);
+  std::erase_if(runs, [&](const RowSpan& run) {
+    return static_cast<double>(run.end - run.begin) < shortest ||
+           t_s[run.end - 1] - t_s[run.begin] < kLong_s;
+  });
+  return runs;
+}
+
+namespace {
+
 /// Returns the time, s, during which the command in `run` differs by more than `notable` from its
 /// value at the start of `run`. Compares means over 0.3 s, because a speed controller changes its
 /// command in every row, although the mean stays about the same. Leaves out the last 0.3 s of the
@@ -216,31 +235,20 @@ double changed_s(std::span<const double> t_s, std::span<const double> activity, 
   return changed;
 }
 
-/// Finds stuck values. A value is stuck if
-///   - it is constant for a second or more;
-///   - it is constant for at least eight times as many rows as the 90 % quantile of all constant
-///     spans;
-///   - the command changed for 0.3 s or more in this time.
+/// Finds stuck values. A value is stuck if it is constant for long (long_constant_runs()), and the
+/// command changed for 0.3 s or more in this time.
 /// Not stuck are values near 0 (the vehicle rests; find_stuck_at_zero()), and values that stay
 /// constant so long more than once (set-points).
 void find_stuck(std::span<const double> t_s, std::span<const double> value,
                 std::span<const double> activity, ChannelQuality& quality) {
-  const std::vector<RowSpan> runs = equal_runs(value);
-  std::vector<double> lengths;
-  for (const RowSpan& run : runs) lengths.push_back(static_cast<double>(run.end - run.begin));
-  const double usual = quantile(lengths, 0.9);
   const auto [low, high] = std::minmax_element(activity.begin(), activity.end());
   const double notable = 0.2 * (*high - *low);
   const double rest = kRestShare * largest_size(value);
   const auto is_resting = [&](double reading) { return std::abs(reading) <= rest; };
-  const auto is_long = [&](const RowSpan& run) {
-    return static_cast<double>(run.end - run.begin) >= 8.0 * usual &&
-           t_s[run.end - 1] - t_s[run.begin] >= 1.0;
-  };
   std::vector<RowSpan> long_runs;
   std::map<double, int> times_held;
-  for (const RowSpan& run : runs) {
-    if (!is_long(run) || is_resting(value[run.begin])) continue;
+  for (const RowSpan& run : long_constant_runs(t_s, value)) {
+    if (is_resting(value[run.begin])) continue;
     long_runs.push_back(run);
     ++times_held[value[run.begin]];
   }

@@ -45,8 +45,9 @@ double resolution_of_changes(std::span<const double> readings);
 /// The largest magnitude of the values; 0 if there are none.
 double largest_size(std::span<const double> values);
 
-/// Divides the values into runs of equal successive values.
-std::vector<RowSpan> equal_runs(std::span<const double> value);
+/// Finds the runs of equal values that last 1 s or more, and at least eight times as many rows as
+/// the 90 % quantile of all runs of equal values.
+std::vector<RowSpan> long_constant_runs(std::span<const double> t_s, std::span<const double> value);
 
 /// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the
 /// signal, by row, in any unit. A signal that is constant while `activity` changes is stuck.

@@ -15,24 +15,16 @@ struct ZeroRun {
   double after = 0.0;   ///< magnitude of the reading in the row after; 0: none, or a time gap
 };
 
-/// Finds the runs of zeros that last 1 s or more, and at least eight times as many rows as the 90 %
-/// quantile of all constant spans.
+/// Finds the runs of zeros among long_constant_runs().
 std::vector<ZeroRun> long_zero_runs(std::span<const double> t_s, std::span<const double> value) {
-  constexpr double kLong_s = 1.0;
-  constexpr double kTimesUsual = 8.0;
   constexpr double kGap = 2.5;  // a longer time between rows, in median steps, may hide a stop
-  const std::vector<RowSpan> runs = equal_runs(value);
-  std::vector<double> lengths;
-  for (const RowSpan& run : runs) lengths.push_back(static_cast<double>(run.end - run.begin));
-  const double shortest = kTimesUsual * quantile(lengths, 0.9);
   const double gap_s = kGap * median_step_of(t_s);
   const auto near = [&](std::size_t row, std::size_t zero_row) {
     return std::abs(t_s[row] - t_s[zero_row]) <= gap_s ? std::abs(value[row]) : 0.0;
   };
   std::vector<ZeroRun> found;
-  for (const auto& [begin, end] : runs) {
-    if (value[begin] != 0.0 || static_cast<double>(end - begin) < shortest) continue;
-    if (t_s[end - 1] - t_s[begin] < kLong_s) continue;
+  for (const auto& [begin, end] : long_constant_runs(t_s, value)) {
+    if (value[begin] != 0.0) continue;
     found.push_back({{begin, end},
                      begin > 0 ? near(begin - 1, begin) : 0.0,
                      end < value.size() ? near(end, end - 1) : 0.0});

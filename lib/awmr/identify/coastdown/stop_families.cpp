@@ -11,6 +11,7 @@
 #include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
 #include "awmr/identify/coastdown/derived.h"
+#include "awmr/identify/tables/noise_average.h"
 #include "awmr/identify/tables/profile.h"
 
 namespace awmr {
@@ -124,7 +125,7 @@ void rescale(const std::vector<double*>& weights, std::size_t own, double share)
     *weights[k] *= k < own ? share : (1.0 - share) / others;
   }
   const double rest = 1.0 - *weights.front();
-  *weights.front() = std::max(*weights.front(), rest * kMinOwnWeight / (1.0 - kMinOwnWeight));
+  *weights.front() = raised_own_weight(*weights.front(), rest);
   const double sum = *weights.front() + rest;
   for (double* weight : weights) *weight /= sum;
 }

@@ -13,15 +13,6 @@
 namespace awmr {
 namespace {
 
-std::optional<Identified> significant(const LogFit& fit, ExtraForce force) {
-  const auto found = identified(fit, force);
-  return found && is_significant(*found) ? found : std::nullopt;
-}
-
-/// A difference of forces or of resistance below this share is not reported: the warning would be
-/// about a smaller effect than any correction.
-constexpr double kMinReported = 0.005;
-
 struct FoundStribeck {
   std::string_view axis;  ///< "surge." or "yaw.", with which parameter names begin
   std::string_view what;

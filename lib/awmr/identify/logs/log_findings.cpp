@@ -62,9 +62,8 @@ bool is_of_mass(const LogDifference& log) {
 /// percent. `more`, `less`: words for a positive and a negative difference.
 void add_text(const std::optional<Identified>& difference, const std::string& log,
               std::string_view more, std::string_view less, std::vector<std::string>& texts) {
-  constexpr double kNegligible = 0.005;
   if (!difference || !is_significant(*difference)) return;
-  if (std::abs(difference->value) < kNegligible) return;
+  if (std::abs(difference->value) < kMinReported) return;
   texts.push_back(fmt::format("{:.1f} +- {:.1f} % {} in {}", 100.0 * std::abs(difference->value),
                               100.0 * difference->error, difference->value > 0.0 ? more : less,
                               log));
@@ -77,8 +76,8 @@ std::vector<Finding> delay_findings(const LogFit& fit, const Logs& logs) {
   std::map<int, std::string> texts;  // by the number of the log
   for (const FreeQuantity& q : fit.quantities) {
     if (q.kind != Kind::kDelay || q.log == 0) continue;
-    const auto delay = identified(fit, q.name());
-    if (!delay || !is_significant(*delay) || std::abs(delay->value) < kNegligible_s) continue;
+    const auto delay = significant(fit, q.name());
+    if (!delay || std::abs(delay->value) < kNegligible_s) continue;
     texts[q.log] = fmt::format("{:.3f} +- {:.3f} s {} in {}", std::abs(delay->value), delay->error,
                                delay->value > 0.0 ? "later" : "earlier", log_text(q.log, logs));
   }
@@ -135,8 +134,8 @@ std::vector<Finding> gyro_bias_findings(const LogFit& fit, const Logs& logs) {
   std::map<int, std::string> texts;  // by the number of the log; 0: of all logs
   for (const FreeQuantity& q : fit.quantities) {
     if (q.kind != Kind::kBias || q.channel != LogChannel::kYawRate) continue;
-    const auto bias = identified(fit, q.name());
-    if (!bias || !is_significant(*bias)) continue;
+    const auto bias = significant(fit, q.name());
+    if (!bias) continue;
     const std::string value = fmt::format("{:.3g} +- {:.2g} rad/s", bias->value, bias->error);
     texts[q.log] = q.log == 0
                        ? fmt::format("yaw_rate_radps is {} while the vehicle does not turn", value)

@@ -30,6 +30,17 @@ std::optional<Identified> identified(const LogFit& fit, What what) {
 /// True if the value exceeds two standard errors. If it does not, it can be due to noise.
 bool is_significant(const Identified& quantity);
 
+/// The quantity `what` (place_of()), if the fit identifies it and it is significant.
+template <class What>
+std::optional<Identified> significant(const LogFit& fit, What what) {
+  const auto found = identified(fit, what);
+  return found && is_significant(*found) ? found : std::nullopt;
+}
+
+/// A difference of forces or of resistance below this share is not reported: the warning would be
+/// about a smaller effect than any correction.
+inline constexpr double kMinReported = 0.005;
+
 /// Length of a vector with these components. The components are assumed to be uncorrelated.
 Identified length_of(const Identified& x, const Identified& y);
 

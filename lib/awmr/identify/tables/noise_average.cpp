@@ -53,8 +53,7 @@ void normalise(std::vector<NoiseAlternative>& alternatives, const std::vector<do
     alternatives[k].weight = std::exp(logarithms[k] - largest);
     if (k > 0) others += alternatives[k].weight;
   }
-  const double own =
-      std::max(alternatives.front().weight, others * kMinOwnWeight / (1.0 - kMinOwnWeight));
+  const double own = raised_own_weight(alternatives.front().weight, others);
   alternatives.front().weight = own;
   for (NoiseAlternative& alternative : alternatives) alternative.weight /= own + others;
   std::erase_if(alternatives, [](const NoiseAlternative& a) { return !(a.weight > 0.0); });

@@ -21,6 +21,7 @@
 /// that determine the curve there, so that their residuals are small.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "awmr/identify/tables/table_family.h"
@@ -39,6 +40,12 @@ struct NoiseAlternative {
 /// distribution lies on each side of that value. With a weight of 5 %, at least 2.5 % of the
 /// mixture lies on each side, so the 95 % interval always contains the reported value.
 inline constexpr double kMinOwnWeight = 0.05;
+
+/// Returns the weight `own` of the chosen fit, raised so that it is at least the share kMinOwnWeight
+/// of all weights. `others`: sum of the other weights. The caller divides all weights by their sum.
+inline double raised_own_weight(double own, double others) {
+  return std::max(own, others * kMinOwnWeight / (1.0 - kMinOwnWeight));
+}
 
 /// Prior odds of an error of the time against each other error model, for runs that were only timed.
 inline constexpr double kTimedOdds = 20.0;
