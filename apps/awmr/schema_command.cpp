@@ -27,7 +27,7 @@
 namespace awmr::cli {
 namespace {
 
-constexpr long kAnyCount = std::numeric_limits<int>::max();
+constexpr long kLargestInt = std::numeric_limits<int>::max();
 
 /// Describes an object with the difference of two runs for each signal; null if not finite.
 void describe_difference(JsonObject json) {
@@ -38,21 +38,21 @@ void describe_chip(JsonObject& json) {
   json.object("cycles", numbers_at({"min", "mean", "max"}, kNonNegative));
   json.nullable_number("cycles_bound", kNonNegative);
   json.optional_object("hostile", [](JsonObject& hostile) {
-    hostile.integer("steps", 0, kAnyCount);
-    hostile.integer("differing", 0, kAnyCount);
+    hostile.integer("steps", 0, kLargestInt);
+    hostile.integer("differing", 0, kLargestInt);
   });
   json.number("period_share", kNonNegative);
-  json.integer("flash_bytes", 0, kAnyCount);
-  json.integer("ram_bytes", 0, kAnyCount);
-  json.optional_integer("repeats", 0, kAnyCount);
-  json.optional_integer("restarts", 0, kAnyCount);
+  json.integer("flash_bytes", 0, kLargestInt);
+  json.integer("ram_bytes", 0, kLargestInt);
+  json.optional_integer("repeats", 0, kLargestInt);
+  json.optional_integer("restarts", 0, kLargestInt);
   json.nullable_number("stack_bytes", kNonNegative);
 }
 
 void describe_verdict(JsonObject& json) {
   json.optional_object("injected", [](JsonObject& injected) {
     for (const char* key : {"expected_fault", "fault", "start_fault"}) {
-      injected.integer(key, 0, kAnyCount);
+      injected.integer(key, 0, kLargestInt);
     }
     injected.boolean("safe");
   });
@@ -71,7 +71,7 @@ void describe_pil(JsonObject& json) {
   read_provenance(json);
   json.string("scenario");
   json.string("mode");
-  json.integer("samples", 0, kAnyCount);
+  json.integer("samples", 0, kLargestInt);
   json.boolean("guidance_on_chip");
   describe_difference(json.object("difference"));
   if (auto exact = json.optional_object("difference_double")) describe_difference(*exact);

@@ -1,28 +1,28 @@
 #include "awmr/core/binomial.h"
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 
 #include "awmr/core/distributions.h"
 
 namespace awmr {
 
+// The binomial probabilities are tails of the beta distribution:
+//     P(K >= k) = P(B <= p), B ~ Beta(k, n - k + 1);  P(K <= k) = P(B > p), B ~ Beta(k + 1, n - k)
 Interval clopper_pearson(std::size_t successes, std::size_t runs) {
-  using Binomial = boost::math::binomial_distribution<double>;
   const auto k = static_cast<double>(successes);
   const auto n = static_cast<double>(runs);
   constexpr double kTail = 0.025;
-  return {successes == 0 ? 0.0 : Binomial::find_lower_bound_on_p(n, k, kTail),
-          successes == runs ? 1.0 : Binomial::find_upper_bound_on_p(n, k, kTail)};
+  return {successes == 0 ? 0.0 : beta_quantile(kTail, k, n - k + 1.0),
+          successes == runs ? 1.0 : beta_tail_quantile(kTail, k + 1.0, n - k)};
 }
 
 double mcnemar_p(std::size_t only_first, std::size_t only_second) {
   const std::size_t split = only_first + only_second;
   if (split == 0) return 1.0;
-  const boost::math::binomial_distribution<double> fair(static_cast<double>(split), 0.5);
+  const auto n = static_cast<double>(split);
   const auto fewer = static_cast<double>(std::min(only_first, only_second));
-  return std::min(1.0, 2.0 * boost::math::cdf(fair, fewer));
+  return std::min(1.0, 2.0 * beta_tail(0.5, fewer + 1.0, n - fewer));
 }
 
 double paired_t_p(double mean, double deviation, std::size_t count) {

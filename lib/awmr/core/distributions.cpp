@@ -1,5 +1,6 @@
 #include "awmr/core/distributions.h"
 
+#include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -18,6 +19,7 @@ using Normal = math::normal_distribution<double, InDouble>;
 using StudentsT = math::students_t_distribution<double, InDouble>;
 using ChiSquared = math::chi_squared_distribution<double, InDouble>;
 using FisherF = math::fisher_f_distribution<double, InDouble>;
+using Beta = math::beta_distribution<double, InDouble>;
 
 }  // namespace
 
@@ -48,6 +50,18 @@ double chi_squared_quantile(double p, double degrees_of_freedom) {
 
 double fisher_f_tail(double f, double numerator_dof, double denominator_dof) {
   return math::cdf(math::complement(FisherF(numerator_dof, denominator_dof), f));
+}
+
+double beta_tail(double x, double alpha, double beta) {
+  return math::cdf(math::complement(Beta(alpha, beta), x));
+}
+
+double beta_quantile(double p, double alpha, double beta) {
+  return math::quantile(Beta(alpha, beta), p);
+}
+
+double beta_tail_quantile(double p, double alpha, double beta) {
+  return math::quantile(math::complement(Beta(alpha, beta), p));
 }
 
 }  // namespace awmr

@@ -1,5 +1,5 @@
-/// Probabilities and quantiles of the normal, t, chi-squared and F distributions. Wraps Boost.Math,
-/// which is slow to compile. Private: not installed.
+/// Probabilities and quantiles of the normal, t, chi-squared, F and beta distributions. Wraps
+/// Boost.Math, which is slow to compile. Private: not installed.
 #pragma once
 
 namespace awmr {
@@ -24,5 +24,12 @@ double chi_squared_quantile(double p, double degrees_of_freedom);
 
 /// P(F > f), F Fisher's F with both degrees of freedom > 0; f >= 0.
 double fisher_f_tail(double f, double numerator_dof, double denominator_dof);
+
+/// P(B > x), B of the beta distribution with the shape parameters alpha, beta > 0; 0 <= x <= 1.
+double beta_tail(double x, double alpha, double beta);
+/// The x with P(B <= x) = p, 0 <= p <= 1.
+double beta_quantile(double p, double alpha, double beta);
+/// The x with P(B > x) = p, accurate for small p too.
+double beta_tail_quantile(double p, double alpha, double beta);
 
 }  // namespace awmr

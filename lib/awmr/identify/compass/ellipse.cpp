@@ -1,11 +1,10 @@
 #include "ellipse.h"
 
-#include <ceres/tiny_solver.h>
-
 #include <Eigen/LU>
 #include <cmath>
 
 #include "awmr/core/linear_algebra.h"
+#include "awmr/identify/ceres_solve.h"
 
 namespace awmr::compass {
 namespace {
@@ -38,24 +37,28 @@ std::optional<Ellipse> conic(const Points& points) {
       centre, shape.vectors * shape.values.cwiseSqrt().asDiagonal() * shape.vectors.transpose());
 }
 
-/// Cost function for ceres::TinySolver: residuals of all points and their Jacobian, column-major.
-struct Distances {
-  using Scalar = double;
-  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = 5 };
-  const Points& points;
+/// The residuals of all points.
+class Distances : public ceres::CostFunction {
+ public:
+  explicit Distances(const Points& points) : points_(points) {
+    set_num_residuals(static_cast<int>(points.rows()));
+    mutable_parameter_block_sizes()->push_back(5);
+  }
 
-  int NumResiduals() const { return static_cast<int>(points.rows()); }
-  bool operator()(const double* p, double* residuals, double* jacobian) const {
-    const Ellipse ellipse{Eigen::Map<const Parameters>(p)};
-    const Eigen::Index rows = points.rows();
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      residuals[i] = residual(ellipse, points.row(i));
-      if (jacobian == nullptr) continue;
-      const auto row = residual_gradient(ellipse, points.row(i));
-      for (Eigen::Index k = 0; k < 5; ++k) jacobian[k * rows + i] = row[k];
+  bool Evaluate(const double* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const Ellipse ellipse{Eigen::Map<const Parameters>(parameters[0])};
+    for (Eigen::Index i = 0; i < points_.rows(); ++i) {
+      residuals[i] = residual(ellipse, points_.row(i));
+      if (jacobians == nullptr || jacobians[0] == nullptr) continue;
+      Eigen::Map<Eigen::Matrix<double, 1, 5>>(jacobians[0] + 5 * i) =
+          residual_gradient(ellipse, points_.row(i));
     }
     return true;
   }
+
+ private:
+  const Points& points_;
 };
 
 }  // namespace
@@ -95,8 +98,11 @@ std::optional<Ellipse> fit_ellipse(const Points& points) {
   const Points scaled = (points.rowwise() - mean) / size;
   std::optional<Ellipse> ellipse = conic(scaled);
   if (!ellipse) return std::nullopt;
-  ceres::TinySolver<Distances> solver;
-  solver.Solve(Distances{scaled}, &ellipse->p);
+  ceres::Problem problem;
+  problem.AddResidualBlock(new Distances(scaled), nullptr, ellipse->p.data());
+  ceres::Solver::Summary summary;
+  ceres::Solve(exact_options(), &problem, &summary);
+  if (!summary.IsSolutionUsable()) return std::nullopt;
   const Eigen::VectorXd shape = symmetric_eigenvalues(ellipse->gain());
   if (!(shape.minCoeff() > 0.0)) return std::nullopt;
   return ellipse_of(mean.transpose() + size * ellipse->centre(), ellipse->gain() / size);
