@@ -10,7 +10,7 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/core/file.h"
-#include "awmr/core/process.h"
+#include "awmr/core/files/process.h"
 
 namespace awmr::pil {
 namespace {

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <optional>
 
-#include "awmr/core/serial_port.h"
+#include "awmr/core/files/serial_port.h"
 #include "emulator.h"
 #include "frame_link.h"
 

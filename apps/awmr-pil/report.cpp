@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "awmr/core/input_file.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/name_table.h"
 #include "awmr/emit/emit.h"
 #include "emulator.h"

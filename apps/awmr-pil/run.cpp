@@ -9,7 +9,7 @@
 #include <set>
 
 #include "awmr/core/file.h"
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json_document.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"

@@ -19,7 +19,7 @@
 #include <string_view>
 #include <thread>
 
-#include "awmr/core/process.h"
+#include "awmr/core/files/process.h"
 
 namespace awmr::pil {
 namespace {

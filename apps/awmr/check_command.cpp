@@ -9,7 +9,7 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/core/file.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/identify/identify.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/plausibility.h"

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "awmr/core/file.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/units.h"
 #include "awmr/emit/compass_header.h"
 #include "awmr/identify/compass/compass.h"

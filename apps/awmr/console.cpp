@@ -12,7 +12,7 @@
 #include <sstream>
 #include <utility>
 
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json_document.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/text.h"
 #include "awmr/model/finding_rank.h"

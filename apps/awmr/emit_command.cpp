@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "awmr/core/file.h"
-#include "awmr/core/json.h"
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json.h"
+#include "awmr/core/json/json_document.h"
 #include "awmr/core/option_text.h"
 #include "awmr/emit/manifest.h"
 #include "awmr/model/gains_file.h"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <sstream>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/nearest.h"
 #include "awmr/core/text.h"
 #include "commands.h"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "awmr/core/input_file.h"
-#include "awmr/core/json.h"
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json.h"
+#include "awmr/core/json/json_document.h"
 #include "awmr/simulate/scenario.h"
 
 namespace awmr::cli {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "awmr/core/containers.h"
-#include "awmr/core/csv_cell.h"
+#include "awmr/core/csv/csv_cell.h"
 #include "awmr/core/nearest.h"
 
 namespace awmr::cli {

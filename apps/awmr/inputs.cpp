@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "awmr/core/json.h"
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json.h"
+#include "awmr/core/json/json_document.h"
 
 namespace awmr::cli {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/text.h"

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "awmr/core/serial_port.h"
+#include "awmr/core/files/serial_port.h"
 
 namespace awmr::cli {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "awmr/core/descriptor.h"
+#include "awmr/core/files/descriptor.h"
 #include "awmr/core/result.h"
 
 namespace awmr::cli {

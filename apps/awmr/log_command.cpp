@@ -5,7 +5,7 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/input_file.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/trials/awl.h"
 #include "commands.h"
 #include "inputs.h"

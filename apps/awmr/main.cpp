@@ -6,7 +6,7 @@
 #include <new>
 #include <string>
 
-#include "awmr/core/temporary_file.h"
+#include "awmr/core/files/temporary_file.h"
 #include "awmr/core/text.h"
 #include "command_line.h"
 #include "commands.h"

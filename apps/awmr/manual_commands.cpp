@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "awmr/core/file.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/nearest.h"
 #include "command_info.h"
 #include "commands.h"

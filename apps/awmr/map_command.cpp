@@ -10,7 +10,7 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/core/file.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/text.h"
 #include "awmr/model/vehicle_file.h"
 #include "awmr/trials/column_guess.h"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "awmr/core/process.h"
+#include "awmr/core/files/process.h"
 #include "commands.h"
 #include "pil_options.h"
 

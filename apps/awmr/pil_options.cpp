@@ -52,7 +52,7 @@ void add_bounds(CLI::App& command, PilOptions& options) {
   command
       .add_option("--difference-max", options.difference_max,
                   "Largest permitted difference of any signal between the chip's run and the same "
-                  "run in float on this computer [0 with resistance tables, 1e-6 with powf]")
+                  "run in float on this computer [0 with --resistance table, 1e-6 with --resistance powf]")
       ->check(within(0.0, 1e9));
   command
       .add_option("--heading-max-deg", options.heading_max_deg,

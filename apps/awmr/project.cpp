@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "identify_options.h"
 
 namespace awmr::cli {

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string>
 
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json_document.h"
 #include "awmr/core/option_text.h"
 
 namespace awmr::cli {

@@ -6,8 +6,8 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/core/file.h"
-#include "awmr/core/json.h"
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json.h"
+#include "awmr/core/json/json_document.h"
 #include "awmr/emit/manifest.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"

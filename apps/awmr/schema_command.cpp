@@ -8,7 +8,7 @@
 
 #include "awmr/compare/shard.h"
 #include "awmr/core/file.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/emit/manifest.h"
 #include "awmr/identify/planning/recover_shard.h"
 #include "awmr/identify/planning/suggest.h"

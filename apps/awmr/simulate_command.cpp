@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "awmr/core/file.h"
-#include "awmr/core/json.h"
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json.h"
+#include "awmr/core/json/json_document.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/conditions.h"

@@ -9,11 +9,11 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/core/file.h"
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json_document.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/scenario_file.h"
-#include "awmr/trials/log_consistency.h"
+#include "awmr/trials/checks/log_consistency.h"
 #include "awmr/trials/trial_columns.h"
 #include "commands.h"
 #include "gains_origin.h"

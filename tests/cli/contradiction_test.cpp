@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "awmr/core/hash.h"
+#include "awmr/core/files/hash.h"
 #include "cli/program.h"
 
 namespace awmr::testing::contradiction_test {

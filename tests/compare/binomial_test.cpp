@@ -1,4 +1,4 @@
-#include "awmr/core/binomial.h"
+#include "awmr/core/statistics/binomial.h"
 
 #include <gtest/gtest.h>
 

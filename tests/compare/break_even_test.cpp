@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "awmr/compare/scoring.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/units.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/simulate.h"

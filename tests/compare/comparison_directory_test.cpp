@@ -4,7 +4,7 @@
 
 #include "awmr/compare/comparison_directory.h"
 #include "awmr/core/file.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/model/gains_file.h"
 #include "support/process.h"
 #include "support/uncertain_model.h"

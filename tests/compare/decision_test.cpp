@@ -8,7 +8,7 @@
 
 #include "awmr/compare/overall.h"
 #include "awmr/compare/scoring.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/random.h"
 #include "awmr/model/gains_file.h"
 #include "support/uncertain_model.h"

@@ -1,6 +1,6 @@
 /// Column formulas: accepted, rejected, and the choice between three readings of a text by the
 /// header.
-#include "awmr/core/column_expression.h"
+#include "awmr/core/csv/column_expression.h"
 
 #include <gmock/gmock.h>
 

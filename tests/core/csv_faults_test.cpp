@@ -1,7 +1,7 @@
 /// Errors in CSV files: their place, message and remedy.
 #include <gmock/gmock.h>
 
-#include "awmr/core/raw_table.h"
+#include "awmr/core/csv/raw_table.h"
 #include "core/csv_text.h"
 #include "core/faults.h"
 

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "awmr/core/csv.h"
-#include "awmr/core/hash.h"
+#include "awmr/core/files/hash.h"
 #include "awmr/core/input_file.h"
 #include "core/directory_test.h"
 

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "awmr/core/csv.h"
-#include "awmr/core/csv_cell.h"
+#include "awmr/core/csv/csv_cell.h"
 #include "core/any_finite.h"
 #include "core/csv_text.h"
 

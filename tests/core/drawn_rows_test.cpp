@@ -1,5 +1,5 @@
 /// Thinning of a curve's rows for drawing keeps the visible features: peaks, corners, both ends.
-#include "awmr/core/drawn_rows.h"
+#include "awmr/core/statistics/drawn_rows.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "awmr/core/file.h"
-#include "awmr/core/temporary_file.h"
+#include "awmr/core/files/temporary_file.h"
 #include "core/directory_test.h"
 #include "core/faults.h"
 #include "support/process.h"

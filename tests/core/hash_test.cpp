@@ -1,4 +1,4 @@
-#include "awmr/core/hash.h"
+#include "awmr/core/files/hash.h"
 
 #include <gmock/gmock.h>
 

@@ -4,7 +4,7 @@
 
 #include <ctime>
 
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json_document.h"
 #include "core/faults.h"
 #include "support/scratch_file.h"
 

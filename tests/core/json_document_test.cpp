@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "core/any_finite.h"
 #include "core/faults.h"
 #include "support/scratch_file.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 
 namespace awmr::testing {
 namespace {

@@ -1,5 +1,5 @@
 /// Starts of programs by an argument list: arguments that arrive, output, exit codes, signals.
-#include "awmr/core/process.h"
+#include "awmr/core/files/process.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 /// Quantiles and medians of samples, compared with their definitions.
-#include "awmr/core/sample_quantile.h"
+#include "awmr/core/statistics/sample_quantile.h"
 
 #include <gtest/gtest.h>
 

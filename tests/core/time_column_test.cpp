@@ -1,5 +1,5 @@
 /// Time columns with other names, in other units and as dates.
-#include "awmr/core/time_column.h"
+#include "awmr/core/csv/time_column.h"
 
 #include <gmock/gmock.h>
 

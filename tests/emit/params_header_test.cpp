@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "awmr/core/hash.h"
+#include "awmr/core/files/hash.h"
 #include "emit/paper_robot.h"
 #include "support/process.h"
 

@@ -1,6 +1,6 @@
 /// Fuzz target: compiles the bytes as a column formula and as a column mapping. Each gives a number
 /// or a readable error.
-#include "awmr/core/column_expression.h"
+#include "awmr/core/csv/column_expression.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 /// Fuzz target: reads the bytes as a JSON document. The reader returns a document or a readable
 /// error. A document that was written and read again is unchanged.
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json_document.h"
 #include "fuzz/target.h"
 
 using awmr::fuzz::require;

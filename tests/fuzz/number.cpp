@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "awmr/core/csv.h"
-#include "awmr/core/csv_cell.h"
+#include "awmr/core/csv/csv_cell.h"
 #include "awmr/core/text.h"
 #include "fuzz/target.h"
 

@@ -1,6 +1,6 @@
 /// Fuzz target: reads the bytes as CDR-encoded ROS messages. The reader returns as many numbers as
 /// the message type has, or an error.
-#include "awmr/trials/ros_message.h"
+#include "awmr/trials/formats/ros_message.h"
 
 #include "fuzz/target.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "awmr/trials/signals.h"
+#include "awmr/trials/formats/signals.h"
 #include "fuzz/target.h"
 
 namespace awmr::fuzz {

@@ -1,6 +1,6 @@
 /// Fuzz target: reads the bytes as a SysId record. The reader returns a value for every cell, or an
 /// error.
-#include "awmr/trials/log_formats.h"
+#include "awmr/trials/formats/log_formats.h"
 
 #include <cmath>
 

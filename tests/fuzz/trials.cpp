@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include "awmr/trials/checks/log_consistency.h"
 #include "awmr/trials/load.h"
-#include "awmr/trials/log_consistency.h"
 #include "awmr/trials/read_trials.h"
 #include "fuzz/file_of_bytes.h"
 #include "fuzz/target.h"

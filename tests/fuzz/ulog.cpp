@@ -1,6 +1,6 @@
 /// Fuzz target: reads the bytes as a ULog file. The reader returns consistent signals or an error.
 /// Memory is bounded.
-#include "awmr/trials/log_formats.h"
+#include "awmr/trials/formats/log_formats.h"
 
 #include "fuzz/signals.h"
 

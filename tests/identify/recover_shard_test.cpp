@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "awmr/core/file.h"
-#include "awmr/core/hash.h"
+#include "awmr/core/files/hash.h"
 #include "awmr/core/option_text.h"
 #include "identify/synthetic.h"
 #include "support/paper_vehicle.h"

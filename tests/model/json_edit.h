@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/result.h"
 #include "support/scratch_file.h"
 

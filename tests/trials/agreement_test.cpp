@@ -1,4 +1,4 @@
-#include "awmr/trials/agreement.h"
+#include "awmr/trials/checks/agreement.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Slow and coarse sensors, spikes, stuck and saturated channels, tested on signals with known
 /// defects.
-#include "awmr/trials/channel_quality.h"
+#include "awmr/trials/checks/channel_quality.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// ArduPilot DataFlash: signals read, and all kinds of invalid files.
 #include <gmock/gmock.h>
 
-#include "awmr/trials/log_formats.h"
+#include "awmr/trials/formats/log_formats.h"
 #include "awmr/trials/read_trials.h"
 #include "binary_text.h"
 #include "trial_text.h"

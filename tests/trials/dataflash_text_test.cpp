@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "awmr/trials/log_formats.h"
+#include "awmr/trials/formats/log_formats.h"
 #include "awmr/trials/read_trials.h"
 #include "binary_text.h"
 #include "trial_text.h"

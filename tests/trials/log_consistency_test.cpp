@@ -1,6 +1,6 @@
 /// Wrong units, wrong signs and swapped sides are detected before any fit, and correct logs give no
 /// finding. The logs are first-order responses with noise, independent of the fitted model.
-#include "awmr/trials/log_consistency.h"
+#include "awmr/trials/checks/log_consistency.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

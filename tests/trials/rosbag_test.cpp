@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
+#include "awmr/trials/formats/ros_message.h"
 #include "awmr/trials/log_files.h"
 #include "awmr/trials/read_trials.h"
-#include "awmr/trials/ros_message.h"
 #include "binary_text.h"
 #include "support/process.h"
 #include "trial_text.h"

@@ -7,7 +7,7 @@
 
 #include "awmr/core/units.h"
 #include "awmr/trials/column_guess.h"
-#include "awmr/trials/log_formats.h"
+#include "awmr/trials/formats/log_formats.h"
 #include "trial_text.h"
 
 namespace awmr::testing::sysid_test {

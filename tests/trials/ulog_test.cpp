@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "awmr/trials/log_formats.h"
+#include "awmr/trials/formats/log_formats.h"
 #include "awmr/trials/read_trials.h"
 #include "binary_text.h"
 #include "trial_text.h"

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "awmr/control/disturbance_observer.h"
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/simulate.h"

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-#include "awmr/core/binomial.h"
+#include "awmr/core/statistics/binomial.h"
 #include "support/uncertain_model.h"
 #include "tune/paper_model.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/tune/tune_file.h"
 #include "tune/paper_model.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/validate/validate.h"
 #include "validate/paper_model.h"

@@ -10,9 +10,9 @@
 
 #include "awmr/compare/metric_columns.h"
 #include "awmr/core/csv.h"
-#include "awmr/core/csv_cell.h"
+#include "awmr/core/csv/csv_cell.h"
 #include "awmr/core/file.h"
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json_document.h"
 
 namespace awmr {
 namespace {

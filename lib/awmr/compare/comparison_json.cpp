@@ -10,9 +10,9 @@
 #include "awmr/compare/ranking.h"
 #include "awmr/compare/scoring.h"
 #include "awmr/compare/statistics.h"
-#include "awmr/core/binomial.h"
-#include "awmr/core/hash.h"
-#include "awmr/core/json.h"
+#include "awmr/core/files/hash.h"
+#include "awmr/core/json/json.h"
+#include "awmr/core/statistics/binomial.h"
 #include "awmr/simulate/batch.h"
 
 namespace awmr {

@@ -3,7 +3,7 @@
 
 #include "awmr/compare/decision.h"
 #include "awmr/compare/metric_columns.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/model/findings_json.h"
 
 namespace awmr {

@@ -12,8 +12,8 @@
 #include "awmr/compare/compare_findings.h"
 #include "awmr/compare/comparison_directory.h"
 #include "awmr/core/containers.h"
+#include "awmr/core/files/shard_file.h"
 #include "awmr/core/index.h"
-#include "awmr/core/shard_file.h"
 #include "awmr/model/findings_json.h"
 
 namespace awmr {

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "awmr/compare/scoring.h"
-#include "awmr/core/binomial.h"
-#include "awmr/core/distributions.h"
 #include "awmr/core/random.h"
-#include "awmr/core/sample_quantile.h"
+#include "awmr/core/statistics/binomial.h"
+#include "awmr/core/statistics/distributions.h"
+#include "awmr/core/statistics/sample_quantile.h"
 
 namespace awmr {
 namespace {

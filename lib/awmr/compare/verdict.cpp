@@ -7,8 +7,8 @@
 
 #include "awmr/compare/decision.h"
 #include "awmr/compare/scoring.h"
-#include "awmr/core/binomial.h"
 #include "awmr/core/containers.h"
+#include "awmr/core/statistics/binomial.h"
 #include "awmr/core/text.h"
 
 namespace awmr {

@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "awmr/core/column_expression.h"
 #include "awmr/core/csv.h"
-#include "awmr/core/csv_cell.h"
+#include "awmr/core/csv/column_expression.h"
+#include "awmr/core/csv/csv_cell.h"
 #include "awmr/core/text.h"
 
 namespace awmr {

@@ -7,14 +7,14 @@
 #include <optional>
 #include <utility>
 
-#include "awmr/core/column_sources.h"
-#include "awmr/core/csv_cell.h"
-#include "awmr/core/csv_header.h"
-#include "awmr/core/csv_scanner.h"
-#include "awmr/core/decimal_comma.h"
-#include "awmr/core/foreign_format.h"
+#include "awmr/core/csv/column_sources.h"
+#include "awmr/core/csv/csv_cell.h"
+#include "awmr/core/csv/csv_header.h"
+#include "awmr/core/csv/csv_scanner.h"
+#include "awmr/core/csv/decimal_comma.h"
+#include "awmr/core/csv/foreign_format.h"
+#include "awmr/core/csv/raw_table.h"
 #include "awmr/core/input_file.h"
-#include "awmr/core/raw_table.h"
 #include "awmr/core/text.h"
 
 namespace awmr {

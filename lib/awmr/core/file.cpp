@@ -15,8 +15,8 @@
 #include <thread>
 #include <utility>
 
-#include "awmr/core/descriptor.h"
-#include "awmr/core/temporary_file.h"
+#include "awmr/core/files/descriptor.h"
+#include "awmr/core/files/temporary_file.h"
 
 namespace awmr {
 namespace {

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <utility>
 
-#include "awmr/core/hash.h"
+#include "awmr/core/files/hash.h"
 
 namespace awmr {
 namespace {

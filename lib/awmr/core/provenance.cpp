@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/version_number.h"
 
 namespace awmr {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "awmr/core/embedded_file.h"
+#include "awmr/core/files/embedded_file.h"
 
 namespace awmr {
 

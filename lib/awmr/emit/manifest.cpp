@@ -6,8 +6,8 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/core/file.h"
-#include "awmr/core/hash.h"
-#include "awmr/core/json.h"
+#include "awmr/core/files/hash.h"
+#include "awmr/core/json/json.h"
 #include "awmr/model/findings_json.h"
 #include "library_files.h"
 

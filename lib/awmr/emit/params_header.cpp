@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "awmr/core/hash.h"
+#include "awmr/core/files/hash.h"
 #include "awmr/core/text.h"
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"

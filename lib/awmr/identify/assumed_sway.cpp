@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "awmr/core/gravity.h"
-#include "awmr/core/sample_quantile.h"
+#include "awmr/core/statistics/sample_quantile.h"
 #include "awmr/identify/identify.h"
 
 namespace awmr {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "awmr/core/index.h"
-#include "awmr/core/silent_ceres.h"
+#include "awmr/core/statistics/silent_ceres.h"
 #include "awmr/trials/replay.h"
 
 namespace awmr {

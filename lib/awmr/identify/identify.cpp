@@ -10,7 +10,7 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/core/option_text.h"
-#include "awmr/core/sample_quantile.h"
+#include "awmr/core/statistics/sample_quantile.h"
 #include "awmr/identify/admissible.h"
 #include "awmr/identify/assumed_sway.h"
 #include "awmr/identify/coastdown/stop_families.h"

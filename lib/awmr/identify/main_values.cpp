@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
+#include "awmr/core/statistics/distributions.h"
 
 namespace awmr {
 namespace {

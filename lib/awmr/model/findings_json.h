@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/model/record.h"
 
 namespace awmr {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "awmr/core/file.h"
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json_document.h"
 #include "awmr/model/gains_json.h"
 #include "awmr/model/observer_rate.h"
 #include "awmr/model/ranges.h"

@@ -1,7 +1,7 @@
 /// Converts gains to and from the JSON of gains.json. Not installed; include from .cpp files only.
 #pragma once
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/model/gains.h"
 
 namespace awmr {

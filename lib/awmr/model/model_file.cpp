@@ -9,7 +9,7 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/input_file.h"
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json_document.h"
 #include "awmr/core/option_text.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/plausibility.h"

@@ -9,8 +9,8 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/core/index.h"
-#include "awmr/core/linear_algebra.h"
 #include "awmr/core/option_text.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/log_term_names.h"
 #include "awmr/model/ratio_names.h"

@@ -1,7 +1,7 @@
 /// Converts the lists of model.json to JSON and back. Private to this folder.
 #pragma once
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/model/model.h"
 
 namespace awmr {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "awmr/core/interval.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/model/vehicle.h"
 
 namespace awmr {

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "awmr/core/drawn_rows.h"
+#include "awmr/core/statistics/drawn_rows.h"
 #include "awmr/model/fitted_law.h"
 
 namespace awmr {

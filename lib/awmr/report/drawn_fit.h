@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/model/model.h"
 
 namespace awmr {

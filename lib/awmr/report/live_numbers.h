@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/result.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/scenario.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 
 namespace awmr {
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "awmr/core/drawn_rows.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
+#include "awmr/core/statistics/drawn_rows.h"
 #include "awmr/model/model.h"
 #include "awmr/report/figures/figure.h"
 #include "awmr/report/figures/figures_of.h"

@@ -11,7 +11,7 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/core/file.h"
-#include "awmr/core/hash.h"
+#include "awmr/core/files/hash.h"
 #include "awmr/model/finding_rank.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/fitted_law.h"
@@ -33,7 +33,7 @@ struct Origin {
 };
 
 /// Returns a finding if a result was made from another model or other gains than those in the
-/// directory; empty otherwise, or if the result does not name its inputs.
+/// directory. Returns nothing if they agree, or if the result does not name its inputs.
 std::optional<Finding> foreign_result(const std::string& result, const Json& json,
                                       const Origin& origin) {
   const std::optional<bool> is_of_model = is_made_from(json, origin.model_sha256);

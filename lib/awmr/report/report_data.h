@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/model/model.h"
 
 namespace awmr {

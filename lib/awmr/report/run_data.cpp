@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "awmr/core/csv.h"
-#include "awmr/core/csv_cell.h"
-#include "awmr/core/drawn_rows.h"
+#include "awmr/core/csv/csv_cell.h"
 #include "awmr/core/file.h"
+#include "awmr/core/statistics/drawn_rows.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/run_file.h"
 #include "awmr/simulate/scenario_file.h"

@@ -6,13 +6,13 @@
 #include <functional>
 #include <string>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 
 namespace awmr {
 
 /// Reads the files `run_SCENARIO_MODE_GAINS.csv`, sorted by name, as [{scenario, mode, gains,
 /// columns: {t_s: [...], ...}}]. Angles are in degrees. The rows are reduced to those that a chart
-/// needs (core/drawn_rows.h). Files for whose name `is_own` returns false are skipped. Errors:
+/// needs (core/statistics/drawn_rows.h). Files for whose name `is_own` returns false are skipped. Errors:
 /// those of read_run() and `is_own`; the directory cannot be read; a file of this name is not a
 /// regular file.
 Result<Json> read_runs(const std::filesystem::path& directory,

@@ -8,10 +8,10 @@
 #include <optional>
 #include <utility>
 
-#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
-#include "awmr/core/linear_algebra.h"
 #include "awmr/core/random.h"
+#include "awmr/core/statistics/distributions.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/model/transform.h"
 
 namespace awmr {

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "awmr/core/json_document.h"
+#include "awmr/core/json/json_document.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/scenario_json.h"
 

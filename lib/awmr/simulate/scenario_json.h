@@ -2,7 +2,7 @@
 /// include from .cpp files only.
 #pragma once
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/simulate/scenario.h"
 
 namespace awmr {

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "awmr/control/directed_speed.h"
-#include "awmr/core/csv_cell.h"
+#include "awmr/core/csv/csv_cell.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/model/finding_rank.h"
@@ -194,7 +194,7 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
       choice == kMeasuredRate ? measured_yaw_rate_degps(model) : *number_from_text(choice);
   if (!limit_degps) {
     return input_error(ErrorCode::kNotIdentified, place,
-                       "the model has no highest measured yaw rate; give a number in deg/s, or "
+                       "no trial or log of this model gives a highest yaw rate; give a number in deg/s, or "
                        "yaw_rate_max_degps in vehicle.json");
   }
   for (Scenario& scenario : scenarios) {
@@ -267,8 +267,8 @@ std::optional<Finding> extrapolation_finding(const std::string& file,
 
 namespace {
 
-/// Force divided by F_max with which the motors push a vehicle further backward that rolls backward
-/// at the speed u = speed_mps, while the controller gets |u|. The speed law requests the force F' =
+/// Additional backward force, divided by F_max, of the motors of a vehicle that rolls backward at
+/// the speed u = speed_mps while the controller gets |u|. The speed law requests the force F' =
 /// -unsigned_push() / n of each of n driven wheels. The drive e of the motor and the force F at the
 /// wheel are
 ///   e = max(F' + k_e u, F'min),   F = e + k_e u

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "awl_format.h"
 #include "awmr/control/safety.h"
 #include "awmr/core/csv.h"
-#include "log_channels.h"
+#include "awmr/trials/checks/log_channels.h"
+#include "awmr/trials/formats/awl_format.h"
 
 namespace awmr {
 namespace {

@@ -9,11 +9,11 @@
 #include <complex>
 #include <numbers>
 
-#include "awmr/core/linear_algebra.h"
 #include "awmr/core/option_text.h"
-#include "awmr/core/sample_quantile.h"
+#include "awmr/core/statistics/linear_algebra.h"
+#include "awmr/core/statistics/sample_quantile.h"
 #include "awmr/core/units.h"
-#include "awmr/trials/log_evidence.h"
+#include "awmr/trials/checks/log_evidence.h"
 
 namespace awmr {
 namespace {

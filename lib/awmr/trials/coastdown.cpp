@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
-#include "agreement.h"
 #include "awmr/core/csv.h"
 #include "awmr/core/option_text.h"
+#include "awmr/trials/checks/agreement.h"
+#include "awmr/trials/checks/repeated_rows.h"
+#include "awmr/trials/formats/read_table.h"
+#include "awmr/trials/resampling/rounded_times.h"
 #include "awmr/trials/trial_columns.h"
-#include "read_table.h"
-#include "repeated_rows.h"
 #include "rest_limits.h"
-#include "rounded_times.h"
 #include "trial_reader.h"
 
 namespace awmr {

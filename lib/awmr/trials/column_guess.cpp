@@ -12,15 +12,15 @@
 #include <span>
 #include <utility>
 
-#include "awmr/core/column_expression.h"
 #include "awmr/core/containers.h"
 #include "awmr/core/csv.h"
-#include "awmr/core/time_column.h"
+#include "awmr/core/csv/column_expression.h"
+#include "awmr/core/csv/time_column.h"
 #include "awmr/core/units.h"
+#include "awmr/trials/checks/channel_quality.h"
+#include "awmr/trials/checks/constant_channels.h"
 #include "awmr/trials/column_words.h"
 #include "awmr/trials/trial_columns.h"
-#include "channel_quality.h"
-#include "constant_channels.h"
 
 namespace awmr {
 namespace {

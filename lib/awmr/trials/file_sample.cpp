@@ -3,12 +3,12 @@
 #include <utility>
 
 #include "awmr/core/csv.h"
-#include "awmr/core/csv_cell.h"
+#include "awmr/core/csv/csv_cell.h"
 #include "awmr/core/input_file.h"
 #include "awmr/trials/column_guess.h"
+#include "awmr/trials/formats/read_table.h"
 #include "awmr/trials/log_files.h"
 #include "awmr/trials/trial_columns.h"
-#include "read_table.h"
 
 namespace awmr {
 namespace {

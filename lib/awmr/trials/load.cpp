@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "awmr/core/containers.h"
-#include "awmr/trials/log_consistency.h"
+#include "awmr/trials/checks/log_consistency.h"
+#include "awmr/trials/checks/repeated_logs.h"
+#include "awmr/trials/checks/table_consistency.h"
 #include "awmr/trials/steady.h"
 #include "awmr/trials/trial_columns.h"
-#include "repeated_logs.h"
-#include "table_consistency.h"
 
 namespace awmr {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "awmr/core/sample_quantile.h"
+#include "awmr/core/statistics/sample_quantile.h"
 #include "awmr/trials/replay.h"
 
 namespace awmr {

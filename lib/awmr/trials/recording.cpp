@@ -8,11 +8,11 @@
 #include <span>
 #include <utility>
 
-#include "awmr/core/column_sources.h"
 #include "awmr/core/csv.h"
-#include "awmr/core/csv_cell.h"
-#include "awmr/core/csv_scanner.h"
-#include "awmr/core/decimal_comma.h"
+#include "awmr/core/csv/column_sources.h"
+#include "awmr/core/csv/csv_cell.h"
+#include "awmr/core/csv/csv_scanner.h"
+#include "awmr/core/csv/decimal_comma.h"
 #include "awmr/core/text.h"
 #include "awmr/trials/trial_columns.h"
 

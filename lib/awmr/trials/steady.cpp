@@ -7,7 +7,7 @@
 
 #include "awmr/core/units.h"
 #include "awmr/model/dynamics.h"
-#include "channel_quality.h"
+#include "awmr/trials/checks/channel_quality.h"
 
 namespace awmr {
 namespace {

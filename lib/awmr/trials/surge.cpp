@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "awmr/core/csv.h"
+#include "awmr/trials/checks/repeated_rows.h"
+#include "awmr/trials/formats/read_table.h"
 #include "awmr/trials/trial_columns.h"
-#include "read_table.h"
-#include "repeated_rows.h"
 #include "rest_limits.h"
 #include "trial_reader.h"
 

@@ -10,10 +10,10 @@
 #include <system_error>
 #include <utility>
 
-#include "awmr/core/column_expression.h"
-#include "awmr/core/column_sources.h"
 #include "awmr/core/containers.h"
-#include "awmr/core/csv_cell.h"
+#include "awmr/core/csv/column_expression.h"
+#include "awmr/core/csv/column_sources.h"
+#include "awmr/core/csv/csv_cell.h"
 #include "awmr/core/nearest.h"
 #include "awmr/core/text.h"
 #include "awmr/trials/column_guess.h"

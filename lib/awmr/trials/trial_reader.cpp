@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "agreement.h"
 #include "awmr/core/csv.h"
+#include "awmr/trials/checks/agreement.h"
 
 namespace awmr {
 

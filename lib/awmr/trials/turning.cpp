@@ -8,9 +8,9 @@
 #include "awmr/core/csv.h"
 #include "awmr/core/units.h"
 #include "awmr/model/dynamics.h"
+#include "awmr/trials/checks/repeated_rows.h"
+#include "awmr/trials/formats/read_table.h"
 #include "awmr/trials/trial_columns.h"
-#include "read_table.h"
-#include "repeated_rows.h"
 #include "rest_limits.h"
 #include "trial_reader.h"
 

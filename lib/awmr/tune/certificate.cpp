@@ -7,9 +7,9 @@
 #include <map>
 #include <utility>
 
-#include "awmr/core/distributions.h"
 #include "awmr/core/parallel.h"
 #include "awmr/core/random.h"
+#include "awmr/core/statistics/distributions.h"
 #include "awmr/core/units.h"
 #include "awmr/tune/objective.h"
 

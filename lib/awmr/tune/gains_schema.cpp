@@ -1,5 +1,5 @@
 // JSON Schema of gains.json. To use the gains, a program needs only the keys `heading` and `speed`.
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/gains_json.h"
 #include "awmr/model/parameters.h"

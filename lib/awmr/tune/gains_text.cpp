@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/units.h"
 #include "awmr/model/gains_json.h"
 #include "awmr/tune/objective.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "awmr/core/binomial.h"
-#include "awmr/core/sample_quantile.h"
+#include "awmr/core/statistics/binomial.h"
+#include "awmr/core/statistics/sample_quantile.h"
 
 namespace awmr {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
-#include "awmr/core/sample_quantile.h"
+#include "awmr/core/statistics/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/simulate/plant_sampler.h"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "awmr/core/interval.h"
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/core/units.h"
 
 namespace awmr {

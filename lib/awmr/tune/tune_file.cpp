@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "awmr/core/containers.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/option_text.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/scenario_file.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/model/certificate.h"
 #include "awmr/tune/tune.h"
 

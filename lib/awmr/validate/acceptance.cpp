@@ -8,7 +8,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
-#include "awmr/core/sample_quantile.h"
+#include "awmr/core/statistics/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/conditions.h"
 #include "awmr/simulate/plant_sampler.h"

@@ -8,7 +8,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
-#include "awmr/core/sample_quantile.h"
+#include "awmr/core/statistics/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/trials/log_start.h"
 #include "awmr/trials/replay.h"

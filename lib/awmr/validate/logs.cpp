@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "awmr/core/drawn_rows.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
+#include "awmr/core/statistics/drawn_rows.h"
 #include "awmr/model/sliding.h"
 #include "awmr/trials/replay.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "awmr/core/interval.h"
-#include "awmr/core/silent_ceres.h"
+#include "awmr/core/statistics/silent_ceres.h"
 #include "awmr/model/ranges.h"
 #include "awmr/validate/tyre_windows.h"
 

@@ -1,5 +1,5 @@
-#include "awmr/core/drawn_rows.h"
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
+#include "awmr/core/statistics/drawn_rows.h"
 #include "awmr/validate/validate.h"
 
 namespace awmr {

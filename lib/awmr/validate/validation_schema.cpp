@@ -2,7 +2,7 @@
 #include <limits>
 #include <string>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/model/findings_json.h"
 #include "awmr/model/ranges.h"
 #include "awmr/validate/validate.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "awmr/core/distributions.h"
 #include "awmr/core/option_text.h"
+#include "awmr/core/statistics/distributions.h"
 #include "awmr/identify/uncertainty/akaike.h"
 #include "awmr/identify/uncertainty/diagnostics.h"
 #include "awmr/model/ratio_names.h"

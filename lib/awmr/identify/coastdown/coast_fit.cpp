@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/identify/ceres_solve.h"
 #include "awmr/identify/coastdown/coast_noise.h"
 #include "awmr/identify/coastdown/coast_problem.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/identify/ceres_solve.h"
 
 namespace awmr {

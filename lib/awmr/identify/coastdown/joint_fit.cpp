@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/identify/ceres_solve.h"
 #include "awmr/identify/coastdown/coast_noise.h"
 #include "awmr/identify/coastdown/coast_problem.h"

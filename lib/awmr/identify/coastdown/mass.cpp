@@ -7,9 +7,9 @@
 #include <iterator>
 #include <utility>
 
-#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
+#include "awmr/core/statistics/distributions.h"
 #include "awmr/identify/coastdown/coast_alone.h"
 #include "awmr/identify/coastdown/coast_model.h"
 #include "awmr/identify/coastdown/stop_families.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "awmr/core/distributions.h"
+#include "awmr/core/statistics/distributions.h"
 
 namespace awmr {
 namespace {

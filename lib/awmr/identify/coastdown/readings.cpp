@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "awmr/core/containers.h"
-#include "awmr/trials/channel_quality.h"
+#include "awmr/trials/checks/channel_quality.h"
 
 namespace awmr {
 namespace {

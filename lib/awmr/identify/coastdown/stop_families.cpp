@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/identify/coastdown/derived.h"
 #include "awmr/identify/tables/noise_average.h"
 #include "awmr/identify/tables/profile.h"

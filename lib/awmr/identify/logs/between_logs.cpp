@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "awmr/core/containers.h"
-#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
+#include "awmr/core/statistics/distributions.h"
 #include "awmr/identify/logs/identifiability.h"
 #include "awmr/identify/logs/log_terms.h"
 #include "awmr/model/log_term_names.h"

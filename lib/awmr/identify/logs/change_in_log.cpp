@@ -8,8 +8,8 @@
 #include <limits>
 #include <utility>
 
-#include "awmr/core/distributions.h"
 #include "awmr/core/option_text.h"
+#include "awmr/core/statistics/distributions.h"
 
 namespace awmr {
 namespace {

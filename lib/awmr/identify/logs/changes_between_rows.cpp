@@ -12,7 +12,7 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/core/index.h"
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/identify/logs/back_emf.h"
 #include "awmr/identify/logs/further_terms.h"
 #include "awmr/identify/logs/information.h"

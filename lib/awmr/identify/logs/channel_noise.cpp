@@ -10,7 +10,7 @@
 #include <numbers>
 #include <utility>
 
-#include "awmr/core/sample_quantile.h"
+#include "awmr/core/statistics/sample_quantile.h"
 #include "awmr/identify/logs/whitener.h"
 
 namespace awmr {

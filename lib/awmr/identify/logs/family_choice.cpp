@@ -205,7 +205,8 @@ std::set<std::string> names_of_terms(const LogFit& fit) {
 
 /// Fits Stribeck friction of one axis (yaw if `of_yaw`, else surge) together with Coulomb and
 /// linear friction. Keeps this fit if it is significantly better than `result.best`. A score test
-/// could not find it, because a power law with Coulomb friction resembles Stribeck friction.
+/// would not predict this gain, because a power law with Coulomb friction resembles Stribeck
+/// friction.
 void compete_with_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            bool of_yaw, BestFamily& result) {
   if (!result.best.fit.usable || result.is_out_of_time) return;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/identify/logs/information.h"
 #include "awmr/identify/logs/score_test.h"
 #include "awmr/identify/logs/widening.h"

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/distributions.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/identify/logs/further_terms.h"
 #include "awmr/identify/logs/identifiability.h"
 #include "awmr/identify/logs/information.h"
@@ -47,7 +47,7 @@ double step_initial_states(const std::vector<WindowSums>& sums, Eigen::Index coo
 /// Fits the initial states of all windows, with fixed fitted quantities. Gauss-Newton steps from
 /// the measured states suffice, because the motion is nearly linear in the states (except for a
 /// servo at its rate limit). The steps end when no state changes by more than 0.1 standard errors.
-/// Smaller steps hardly change the scores, and they may alternate without end in a window in which
+/// Smaller steps hardly change the gradient of ln L, and they may alternate without end in a window in which
 /// the vehicle rests.
 SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> coordinates) {
   constexpr int kSteps = 10;

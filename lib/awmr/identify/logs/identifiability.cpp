@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/distributions.h"
+#include "awmr/core/statistics/linear_algebra.h"
 
 namespace awmr {
 namespace {

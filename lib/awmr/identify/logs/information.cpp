@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/linear_algebra.h"
 
 namespace awmr {
 namespace {

@@ -12,7 +12,7 @@
 #include "awmr/core/containers.h"
 #include "awmr/core/index.h"
 #include "awmr/core/random.h"
-#include "awmr/core/sample_quantile.h"
+#include "awmr/core/statistics/sample_quantile.h"
 #include "awmr/identify/logs/changes_between_rows.h"
 #include "awmr/identify/logs/delays.h"
 #include "awmr/identify/logs/information.h"

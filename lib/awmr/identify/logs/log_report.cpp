@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
+#include "awmr/core/statistics/distributions.h"
 #include "awmr/identify/uncertainty/diagnostics.h"
 
 namespace awmr {

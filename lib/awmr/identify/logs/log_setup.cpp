@@ -11,7 +11,7 @@
 #include "awmr/identify/logs/initial_guess.h"
 #include "awmr/identify/logs/log_fit.h"
 #include "awmr/trials/calibration_checks.h"
-#include "awmr/trials/log_consistency.h"
+#include "awmr/trials/checks/log_consistency.h"
 
 namespace awmr {
 namespace {

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "awmr/core/containers.h"
-#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
+#include "awmr/core/statistics/distributions.h"
 #include "awmr/identify/logs/back_emf.h"
 #include "awmr/identify/logs/between_logs.h"
 #include "awmr/identify/logs/change_in_log.h"
@@ -24,7 +24,7 @@
 #include "awmr/identify/logs/steering_linkage.h"
 #include "awmr/identify/logs/term_findings.h"
 #include "awmr/model/plausibility.h"
-#include "awmr/trials/log_consistency.h"
+#include "awmr/trials/checks/log_consistency.h"
 
 namespace awmr {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "awmr/core/index.h"
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/identify/logs/sensitivity_kernel.h"
 
 namespace awmr {

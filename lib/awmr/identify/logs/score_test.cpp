@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/identify/logs/information.h"
 
 namespace awmr {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "awmr/core/sample_quantile.h"
+#include "awmr/core/statistics/sample_quantile.h"
 #include "awmr/trials/steady.h"
 
 namespace awmr {

@@ -8,9 +8,9 @@
 #include <iterator>
 #include <limits>
 
-#include "awmr/core/hash.h"
+#include "awmr/core/files/hash.h"
+#include "awmr/core/files/shard_file.h"
 #include "awmr/core/name_table.h"
-#include "awmr/core/shard_file.h"
 #include "awmr/identify/planning/recover_table.h"
 
 namespace awmr {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/option_text.h"
 #include "awmr/identify/planning/recover_part.h"
 #include "awmr/model/findings_json.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "awmr/core/index.h"
-#include "awmr/core/linear_algebra.h"
 #include "awmr/core/option_text.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/identify/planning/candidates.h"
 #include "awmr/model/transform.h"
 #include "awmr/trials/replay.h"

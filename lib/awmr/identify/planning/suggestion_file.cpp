@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "awmr/core/json.h"
+#include "awmr/core/json/json.h"
 #include "awmr/identify/planning/suggest.h"
 #include "awmr/model/findings_json.h"
 

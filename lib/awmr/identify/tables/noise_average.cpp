@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/linear_algebra.h"
 
 namespace awmr {
 namespace {

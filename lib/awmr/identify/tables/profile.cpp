@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "awmr/core/distributions.h"
+#include "awmr/core/statistics/distributions.h"
 #include "awmr/identify/tables/steady_search.h"
 #include "awmr/identify/uncertainty/akaike.h"
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
+#include "awmr/core/statistics/distributions.h"
 #include "awmr/identify/uncertainty/diagnostics.h"
 
 namespace awmr {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "awmr/core/index.h"
-#include "awmr/core/sample_quantile.h"
+#include "awmr/core/statistics/sample_quantile.h"
 
 namespace awmr {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "awmr/core/distributions.h"
+#include "awmr/core/statistics/distributions.h"
 #include "awmr/core/units.h"
 #include "awmr/identify/tables/subject.h"
 #include "awmr/model/fitted_law.h"

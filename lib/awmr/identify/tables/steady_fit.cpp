@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/linear_algebra.h"
 #include "awmr/identify/ceres_solve.h"
 #include "awmr/identify/tables/robust.h"
 #include "awmr/identify/tables/steady_search.h"

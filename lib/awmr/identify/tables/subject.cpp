@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "awmr/core/distributions.h"
+#include "awmr/core/statistics/distributions.h"
 
 namespace awmr {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
-#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
-#include "awmr/core/linear_algebra.h"
+#include "awmr/core/statistics/distributions.h"
+#include "awmr/core/statistics/linear_algebra.h"
 
 namespace awmr {
 namespace {

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <vector>
 
-#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
+#include "awmr/core/statistics/distributions.h"
 
 namespace awmr {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "awmr/core/csv_cell.h"
-#include "awmr/core/json.h"
+#include "awmr/core/csv/csv_cell.h"
+#include "awmr/core/json/json.h"
 #include "awmr/core/name_table.h"
 #include "awmr/report/report.h"
 

@@ -28,7 +28,7 @@ endif()
 set(flags --target=wasm32-wasi -std=c++20 -Oz -ffp-contract=off -ffunction-sections -fno-exceptions -fno-rtti -DNDEBUG
   -DFMT_HEADER_ONLY -isystem /usr/include/eigen3 -I${PROJECT_SOURCE_DIR}/lib)
 set(text "")
-foreach(part core/error core/linear_algebra core/option_text core/text model/family model/model model/observer_rate
+foreach(part core/error core/statistics/linear_algebra core/option_text core/text model/family model/model model/observer_rate
     model/parameters model/rest_speed model/vehicle simulate/disturbance simulate/metrics
     simulate/passage simulate/physics simulate/run_columns simulate/scenario_guidance simulate/scenario
     simulate/sensing simulate/simulate
