@@ -50,9 +50,10 @@ void add_bounds(CLI::App& command, PilOptions& options) {
       ->check(within(1U, kAnyCount))
       ->capture_default_str();
   command
-      .add_option("--difference-max", options.difference_max,
-                  "Largest permitted difference of any signal between the chip's run and the same "
-                  "run in float on this computer [0 with --resistance table, 1e-6 with --resistance powf]")
+      .add_option(
+          "--difference-max", options.difference_max,
+          "Largest permitted difference of any signal between the chip's run and the same "
+          "run in float on this computer [0 with --resistance table, 1e-6 with --resistance powf]")
       ->check(within(0.0, 1e9));
   command
       .add_option("--heading-max-deg", options.heading_max_deg,

@@ -1,5 +1,5 @@
 /// Findings about model errors, from the drift in the noise of a fit.
-#include "awmr/identify/logs/log_checks.h"
+#include "awmr/identify/logs/checks/log_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "awmr/identify/logs/term_findings.h"
+#include "awmr/identify/logs/findings/term_findings.h"
 #include "identify/synthetic_log.h"
 
 namespace awmr::testing {

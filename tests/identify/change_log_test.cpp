@@ -1,5 +1,5 @@
 /// Logs of vehicles that change during the drive.
-#include "awmr/identify/logs/change_in_log.h"
+#include "awmr/identify/logs/checks/change_in_log.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "awmr/identify/logs/held_out.h"
-#include "awmr/identify/logs/initial_guess.h"
+#include "awmr/identify/logs/checks/held_out.h"
+#include "awmr/identify/logs/problem/initial_guess.h"
 #include "identify/log_answers.h"
 
 namespace awmr::testing {

@@ -1,5 +1,5 @@
 /// Initial guesses of log fits, and comparison of resistance families, each at its best fit.
-#include "awmr/identify/logs/family_choice.h"
+#include "awmr/identify/logs/choice/family_choice.h"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "awmr/core/index.h"
-#include "awmr/identify/logs/family_fit.h"
-#include "awmr/identify/logs/initial_guess.h"
-#include "awmr/identify/logs/log_problem.h"
-#include "awmr/identify/logs/multistart.h"
-#include "awmr/identify/logs/nearest_curve.h"
+#include "awmr/identify/logs/choice/family_fit.h"
+#include "awmr/identify/logs/problem/initial_guess.h"
+#include "awmr/identify/logs/problem/log_problem.h"
+#include "awmr/identify/logs/problem/multistart.h"
+#include "awmr/identify/logs/problem/nearest_curve.h"
 #include "awmr/model/sliding.h"
 #include "awmr/trials/log_start.h"
 #include "identify/log_answers.h"

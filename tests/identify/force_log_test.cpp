@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "awmr/core/index.h"
-#include "awmr/identify/logs/linear_replay.h"
-#include "awmr/identify/logs/term_findings.h"
+#include "awmr/identify/logs/findings/term_findings.h"
+#include "awmr/identify/logs/simulation/linear_replay.h"
 #include "awmr/model/log_term_names.h"
 #include "identify/log_answers.h"
 

@@ -11,8 +11,8 @@
 
 #include "awmr/identify/logs/log_fit.h"
 #include "awmr/identify/logs/log_fit_options.h"
-#include "awmr/identify/logs/residuals.h"
-#include "awmr/identify/logs/windows.h"
+#include "awmr/identify/logs/problem/residuals.h"
+#include "awmr/identify/logs/problem/windows.h"
 #include "awmr/model/model_file.h"
 #include "identify/log_answers.h"
 

@@ -9,9 +9,9 @@
 
 #include "awmr/core/index.h"
 #include "awmr/identify/ceres_solve.h"
-#include "awmr/identify/logs/linear_replay.h"
-#include "awmr/identify/logs/product_sums.h"
-#include "awmr/identify/logs/wheel_slip.h"
+#include "awmr/identify/logs/problem/product_sums.h"
+#include "awmr/identify/logs/simulation/linear_replay.h"
+#include "awmr/identify/logs/simulation/wheel_slip.h"
 #include "awmr/model/plant_of.h"
 #include "awmr/model/rest.h"
 

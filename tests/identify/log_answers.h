@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "awmr/identify/logs/initial_guess.h"
 #include "awmr/identify/logs/log_fit_options.h"
+#include "awmr/identify/logs/problem/initial_guess.h"
 #include "awmr/trials/replay.h"
 #include "identify/synthetic_log.h"
 

@@ -1,5 +1,5 @@
 /// Fits of long logs, whose search begins with a sample of the windows.
-#include "awmr/identify/logs/log_problem.h"
+#include "awmr/identify/logs/problem/log_problem.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,9 +8,9 @@
 #include <map>
 #include <optional>
 
-#include "awmr/identify/logs/channel_noise.h"
-#include "awmr/identify/logs/identifiability.h"
-#include "awmr/identify/logs/whitener.h"
+#include "awmr/identify/logs/problem/channel_noise.h"
+#include "awmr/identify/logs/problem/identifiability.h"
+#include "awmr/identify/logs/problem/whitener.h"
 #include "awmr/identify/planning/recover.h"
 #include "awmr/model/model_file.h"
 #include "awmr/trials/log_start.h"

@@ -1,9 +1,9 @@
 // Logs of precise positions and headings without speeds, as those of motion capture.
 #include <gtest/gtest.h>
 
-#include "awmr/identify/logs/family_fit.h"
-#include "awmr/identify/logs/initial_guess.h"
+#include "awmr/identify/logs/choice/family_fit.h"
 #include "awmr/identify/logs/log_setup.h"
+#include "awmr/identify/logs/problem/initial_guess.h"
 #include "identify/synthetic_log.h"
 
 namespace awmr::testing {

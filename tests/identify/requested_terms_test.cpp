@@ -1,5 +1,5 @@
 /// Terms of a log fit that are requested by name.
-#include "awmr/identify/logs/further_terms.h"
+#include "awmr/identify/logs/choice/further_terms.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "awmr/core/index.h"
-#include "awmr/identify/logs/interpolated_commands.h"
-#include "awmr/identify/logs/log_problem.h"
-#include "awmr/identify/logs/log_terms.h"
+#include "awmr/identify/logs/choice/interpolated_commands.h"
+#include "awmr/identify/logs/choice/log_terms.h"
+#include "awmr/identify/logs/problem/log_problem.h"
 #include "identify/synthetic_log.h"
 
 namespace awmr {

@@ -1,4 +1,4 @@
-#include "awmr/identify/logs/smoothing_kernel.h"
+#include "awmr/identify/logs/simulation/smoothing_kernel.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/random.h"
-#include "awmr/identify/logs/channel_noise.h"
+#include "awmr/identify/logs/problem/channel_noise.h"
 
 namespace awmr {
 namespace {

@@ -193,9 +193,10 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
   const std::optional<double> limit_degps =
       choice == kMeasuredRate ? measured_yaw_rate_degps(model) : *number_from_text(choice);
   if (!limit_degps) {
-    return input_error(ErrorCode::kNotIdentified, place,
-                       "no trial or log of this model gives a highest yaw rate; give a number in deg/s, or "
-                       "yaw_rate_max_degps in vehicle.json");
+    return input_error(
+        ErrorCode::kNotIdentified, place,
+        "no trial or log of this model gives a highest yaw rate; give a number in deg/s, or "
+        "yaw_rate_max_degps in vehicle.json");
   }
   for (Scenario& scenario : scenarios) {
     limit_heading_rate(*limit_degps, model.vehicle.sample_time_s, scenario);

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "awmr/core/random.h"
-#include "awmr/identify/logs/sensitivity_kernel.h"
+#include "awmr/identify/logs/simulation/sensitivity_kernel.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/simulate/batch.h"
 #include "awmr/simulate/lanes/kernels.h"

@@ -26,7 +26,7 @@ OPTIONS = ["-std=c++20", "-O2", "-DNDEBUG", "-ffp-contract=off", "-DFMT_HEADER_O
 KERNELS = {"avx2": ["-mavx2", "-mfma"], "avx512": ["-mavx512f", "-mfma"], "neon": []}
 KERNEL_OPTIONS = ["-fno-tree-slp-vectorize"]
 # Sources that batches need, without file readers and their libraries.
-PARTS = ["core/error", "core/option_text", "core/random", "core/text", "identify/logs/sensitivity_kernel", "model/family",
+PARTS = ["core/error", "core/option_text", "core/random", "core/text", "identify/logs/simulation/sensitivity_kernel", "model/family",
          "model/model", "model/observer_rate", "model/parameters", "model/rest_speed", "model/vehicle", "simulate/batch",
          "simulate/conditions", "simulate/disturbance", "simulate/metrics", "simulate/passage", "simulate/physics",
          "simulate/run_columns", "simulate/scenario", "simulate/scenario_guidance", "simulate/sensing", "simulate/simulate"]

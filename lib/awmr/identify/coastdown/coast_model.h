@@ -8,7 +8,7 @@
 
 #include "awmr/identify/coastdown/coast_problem.h"
 #include "awmr/identify/coastdown/readings.h"
-#include "awmr/identify/logs/channel_noise.h"
+#include "awmr/identify/logs/problem/channel_noise.h"
 
 namespace awmr {
 

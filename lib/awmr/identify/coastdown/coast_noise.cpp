@@ -7,7 +7,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/statistics/linear_algebra.h"
-#include "awmr/identify/logs/whitener.h"
+#include "awmr/identify/logs/problem/whitener.h"
 
 namespace awmr {
 namespace {

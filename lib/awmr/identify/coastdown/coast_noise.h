@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "awmr/identify/coastdown/coast_fit.h"
-#include "awmr/identify/logs/channel_noise.h"
+#include "awmr/identify/logs/problem/channel_noise.h"
 
 namespace awmr {
 

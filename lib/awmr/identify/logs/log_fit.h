@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "awmr/identify/logs/channel_noise.h"
 #include "awmr/identify/logs/log_fit_options.h"
+#include "awmr/identify/logs/problem/channel_noise.h"
 #include "awmr/model/record.h"
 
 namespace awmr {

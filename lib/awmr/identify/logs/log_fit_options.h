@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "awmr/core/containers.h"
-#include "awmr/identify/logs/channel_noise.h"
-#include "awmr/identify/logs/quantities.h"
-#include "awmr/identify/logs/windows.h"
+#include "awmr/identify/logs/problem/channel_noise.h"
+#include "awmr/identify/logs/problem/quantities.h"
+#include "awmr/identify/logs/problem/windows.h"
 #include "awmr/identify/options.h"
 #include "awmr/model/plant_of.h"
 #include "awmr/model/vehicle.h"

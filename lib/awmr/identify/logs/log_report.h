@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "awmr/identify/logs/identifiability.h"
-#include "awmr/identify/logs/log_problem.h"
+#include "awmr/identify/logs/problem/identifiability.h"
+#include "awmr/identify/logs/problem/log_problem.h"
 #include "awmr/model/record.h"
 
 namespace awmr {

@@ -6,10 +6,10 @@
 
 #include "awmr/core/containers.h"
 #include "awmr/core/index.h"
-#include "awmr/identify/logs/back_emf.h"
-#include "awmr/identify/logs/further_terms.h"
-#include "awmr/identify/logs/initial_guess.h"
+#include "awmr/identify/logs/choice/back_emf.h"
+#include "awmr/identify/logs/choice/further_terms.h"
 #include "awmr/identify/logs/log_fit.h"
+#include "awmr/identify/logs/problem/initial_guess.h"
 #include "awmr/trials/calibration_checks.h"
 #include "awmr/trials/checks/log_consistency.h"
 
