@@ -282,6 +282,43 @@ void take_sides_alone(TrialSet<TurningRow>& set, std::vector<Finding>& findings)
            set.rows.size())});
 }
 
+/// Indices of the rows of a turning table by their use.
+struct TurningRowUses {
+  std::vector<std::size_t> kept;
+  std::vector<std::size_t> set_aside;  ///< rows that do not determine the yaw resistance
+};
+
+/// Reads all rows of a turning table into `set`: turns by steering, turns by different forces left
+/// and right, and runs in which these forces did not turn the vehicle. (The last ones serve only to
+/// determine tyre scrub, together with turns by steering. Without such turns they are set aside.)
+TurningRowUses read_turning_rows(TrialReader& reader, const Vehicle& vehicle,
+                                 const TrialOptions& options, TrialSet<TurningRow>& set,
+                                 std::vector<Finding>& findings) {
+  TurningRowUses uses;
+  std::vector<std::size_t> standing;
+  for (std::size_t i = 0; i < reader.table().rows(); ++i) {
+    const auto row = read_row(reader, i, vehicle, options.preference, findings);
+    if (!row) continue;
+    const bool beside_steering = vehicle.has_steering() && row->sides;
+    const bool is_standing = is_rest(row->yaw_rate_radps, kRestRate_radps);
+    if (is_rest(row->tau_turn_m, kRestForce) || (is_standing && !beside_steering)) {
+      uses.set_aside.push_back(i);
+    } else if (is_standing) {
+      set.standing.push_back(*row);
+      standing.push_back(i);
+    } else {
+      uses.kept.push_back(i);
+      (beside_steering ? set.by_sides : set.rows).push_back(*row);
+    }
+  }
+  if (set.rows.empty()) {
+    set.standing.clear();
+    append(uses.set_aside, standing);
+    std::sort(uses.set_aside.begin(), uses.set_aside.end());
+  }
+  return uses;
+}
+
 }  // namespace
 
 Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, const Vehicle& vehicle,
@@ -299,39 +336,15 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   set.rate_column = reader.has("yaw_rate_radps") && !takes_timed ? "yaw_rate_radps" : "turns";
   note_format(reader, findings);
   if (!vehicle.has_steering()) check_sides_given(reader);
-  std::vector<std::size_t> set_aside;
-  std::vector<std::size_t> standing;
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < reader.table().rows(); ++i) {
-    const auto row = read_row(reader, i, vehicle, options.preference, findings);
-    if (!row) continue;
-    const bool beside_steering = vehicle.has_steering() && row->sides;
-    const bool is_standing = is_rest(row->yaw_rate_radps, kRestRate_radps);
-    if (is_rest(row->tau_turn_m, kRestForce) || (is_standing && !beside_steering)) {
-      set_aside.push_back(i);
-    } else if (is_standing) {
-      set.standing.push_back(*row);
-      standing.push_back(i);
-    } else {
-      kept.push_back(i);
-      (beside_steering ? set.by_sides : set.rows).push_back(*row);
-    }
-  }
+  const TurningRowUses uses = read_turning_rows(reader, vehicle, options, set, findings);
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
-  if (set.rows.empty()) {
-    // Runs in which the vehicle did not turn serve only to determine tyre scrub, together with
-    // steered turns, which this table lacks.
-    set.standing.clear();
-    append(set_aside, standing);
-    std::sort(set_aside.begin(), set_aside.end());
-  }
   take_sides_alone(set, findings);
-  set.set_aside = static_cast<int>(set_aside.size());
-  note_rows_set_aside(reader, set_aside,
+  set.set_aside = static_cast<int>(uses.set_aside.size());
+  note_rows_set_aside(reader, uses.set_aside,
                       "a run without yaw moment or yaw rate does not determine the yaw resistance "
                       "tau_turn = a3 r^b3",
                       findings);
-  find_repeated_rows(reader, kept,
+  find_repeated_rows(reader, uses.kept,
                      {.settings = {"steering_deg", "wheel_force", "force_left", "force_right",
                                    "turns", "tau_turn"},
                       .printed = "yaw_rate_radps"},

@@ -225,13 +225,10 @@ void drop_void_columns(CsvTable& table, const ColumnSources& sources) {
   }
 }
 
-}  // namespace
-
-Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
-                          std::span<const ColumnMapping> mappings, std::vector<Fault> faults) {
-  const bool sparse = is_sparse(raw, sources);
-  FaultList list{raw, faults};
-  CsvTable table{.file = raw.file, .header_line = raw.header_line, .mapped = std::move(raw.mapped)};
+/// Adds the columns of `sources` to the table. `sparse`: signals of different rates, so that a cell
+/// may be empty.
+void take_columns(RawTable& raw, ColumnSources& sources, std::span<const ColumnMapping> mappings,
+                  bool sparse, FaultList& list, CsvTable& table) {
   const auto may_be_empty = [sparse](const ColumnSource& source) {
     return (sparse && has_own_rate(source)) || source.column.empty == EmptyCells::kOptional;
   };
@@ -256,6 +253,16 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
                           CsvTable::Column{.values = std::move(column.value),
                                            .character = std::move(column.character)});
   }
+}
+
+}  // namespace
+
+Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
+                          std::span<const ColumnMapping> mappings, std::vector<Fault> faults) {
+  const bool sparse = is_sparse(raw, sources);
+  FaultList list{raw, faults};
+  CsvTable table{.file = raw.file, .header_line = raw.header_line, .mapped = std::move(raw.mapped)};
+  take_columns(raw, sources, mappings, sparse, list, table);
   drop_void_columns(table, sources);
   table.lines = std::move(raw.lines);
   table.notes = std::move(raw.notes);
