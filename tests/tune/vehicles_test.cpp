@@ -150,6 +150,8 @@ TEST_P(DryFriction, GetsAnObserverWithWhichSteeringRunsSettle) {
   ASSERT_TRUE(with) << to_text(with.error());
   EXPECT_TRUE(with->observer_added);
   options.adds_observer = false;
+  EXPECT_FALSE(tune(model, options)) << "gains with which no steering run settles";
+  options.allows_unsettled = true;
   const Result<Tuning> without = tune(model, options);
   ASSERT_TRUE(without) << to_text(without.error());
   EXPECT_LT(evaluated_in(*without, YawMode::kSteering).completed_share, 0.1);
