@@ -44,38 +44,39 @@ bool names_cause(const Adequacy& adequacy, const std::string& cause) {
 }
 
 TEST(Adequacy, OfSensorNoiseHasNoFinding) {
-  const Adequacy adequacy =
-      adequacy_of({{LogChannel::kSpeed, noise_with(0.3)}, {LogChannel::kYawRate, noise_with(0.0)}});
+  const Adequacy adequacy = adequacy_of(
+      {{{LogChannel::kSpeed}, noise_with(0.3)}, {{LogChannel::kYawRate}, noise_with(0.0)}});
   EXPECT_TRUE(adequacy.findings.empty());
   EXPECT_FALSE(adequacy.withdraws_intervals);
 }
 
 TEST(Adequacy, WithdrawsTheIntervalsOfADriftAboveTheNoise) {
-  const Adequacy small = adequacy_of({{LogChannel::kSpeed, noise_with(1.0)}});
+  const Adequacy small = adequacy_of({{{LogChannel::kSpeed}, noise_with(1.0)}});
   EXPECT_TRUE(names_cause(small, "half_track_m"));
   EXPECT_FALSE(small.withdraws_intervals);
   EXPECT_FALSE(small.withdraws_servo);
   EXPECT_FALSE(small.withdraws_sway);
-  EXPECT_TRUE(adequacy_of({{LogChannel::kSpeed, noise_with(3.0)}}).withdraws_intervals);
+  EXPECT_TRUE(adequacy_of({{{LogChannel::kSpeed}, noise_with(3.0)}}).withdraws_intervals);
   // A compass can drift by itself if a gyroscope shows no model error.
-  EXPECT_FALSE(adequacy_of({{LogChannel::kYawRate, noise_with(0.0)},
-                            {LogChannel::kHeading, noise_with(3.0)}})
+  EXPECT_FALSE(adequacy_of({{{LogChannel::kYawRate}, noise_with(0.0)},
+                            {{LogChannel::kHeading}, noise_with(3.0)}})
                    .withdraws_intervals);
-  EXPECT_TRUE(adequacy_of({{LogChannel::kHeading, noise_with(3.0)}}).withdraws_intervals);
-  EXPECT_TRUE(adequacy_of({{LogChannel::kX, noise_with(1.0)}, {LogChannel::kY, noise_with(0.0)}})
-                  .withdraws_intervals)
+  EXPECT_TRUE(adequacy_of({{{LogChannel::kHeading}, noise_with(3.0)}}).withdraws_intervals);
+  EXPECT_TRUE(
+      adequacy_of({{{LogChannel::kX}, noise_with(1.0)}, {{LogChannel::kY}, noise_with(0.0)}})
+          .withdraws_intervals)
       << "logs of positions only";
 }
 
 TEST(Adequacy, NamesCausesOfTheChannel) {
-  const Adequacy yaw = adequacy_of({{LogChannel::kYawRate, noise_with(1.0)}});
+  const Adequacy yaw = adequacy_of({{{LogChannel::kYawRate}, noise_with(1.0)}});
   EXPECT_TRUE(names_cause(yaw, "steering_deg"));
   EXPECT_TRUE(names_cause(yaw, "bias.yaw_rate_radps"));
   EXPECT_TRUE(yaw.withdraws_servo);
   EXPECT_FALSE(yaw.withdraws_sway);
-  const Adequacy speed = adequacy_of({{LogChannel::kSpeed, noise_with(1.0)}});
+  const Adequacy speed = adequacy_of({{{LogChannel::kSpeed}, noise_with(1.0)}});
   EXPECT_FALSE(names_cause(speed, "bias.yaw_rate_radps"));
-  const Adequacy sway = adequacy_of({{LogChannel::kSway, noise_with(1.0)}});
+  const Adequacy sway = adequacy_of({{{LogChannel::kSway}, noise_with(1.0)}});
   EXPECT_TRUE(names_cause(sway, "sway.alpha"));
   EXPECT_FALSE(names_cause(sway, "half_track_m")) << "only the causes of a sway speed";
   EXPECT_TRUE(sway.withdraws_sway);
@@ -88,7 +89,7 @@ LogFit fit_with_term(const FreeQuantity& quantity, double value) {
   fit.coordinates = {value};
   fit.covariance = Eigen::MatrixXd::Constant(1, 1, 1e-8);
   fit.refusal_reason = {""};
-  fit.noise = {{LogChannel::kSpeed, noise_with(0.0)}};
+  fit.noise = {{{LogChannel::kSpeed}, noise_with(0.0)}};
   fit.report.parameters = {{quantity.name(), value, 1e-4, {}, {}}};
   return fit;
 }
@@ -98,7 +99,7 @@ TEST(WheelSlip, OfMoreThanAQuarterNeedsAPosition) {
   EXPECT_FALSE(has_implausible_term(fit_with_term(ratio, 0.2)));
   LogFit large = fit_with_term(ratio, 0.3);
   EXPECT_TRUE(has_implausible_term(large));
-  large.noise[LogChannel::kX] = noise_with(0.0);
+  large.noise[{LogChannel::kX}] = noise_with(0.0);
   EXPECT_FALSE(has_implausible_term(large));
 }
 

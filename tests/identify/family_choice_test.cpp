@@ -404,9 +404,9 @@ LogFit fit_with_errors(const std::vector<double>& errors) {
   ErrorSeries series{errors, std::vector<double>(errors.size(), 0.01)};
   series.since_s.front() = 0.0;
   LogFit fit;
-  fit.errors[LogChannel::kSpeed] = {series};
-  fit.noise[LogChannel::kSpeed] =
-      likeliest_noise(fit.errors[LogChannel::kSpeed], 1.0, {.sensor_std = 1e-4});
+  fit.errors[{LogChannel::kSpeed}] = {series};
+  fit.noise[{LogChannel::kSpeed}] =
+      likeliest_noise(fit.errors[{LogChannel::kSpeed}], 1.0, {.sensor_std = 1e-4});
   fit.usable = true;
   return fit;
 }
@@ -433,8 +433,8 @@ TEST(Families, AreComparedUnderTheNoiseOfTheSmallerErrors) {
     smooth.push_back(0.2 * std::sin(0.01 * k));
   }
   const LogFit right = fit_with_errors(small), wrong = fit_with_errors(smooth);
-  EXPECT_TRUE(wrong.noise.at(LogChannel::kSpeed).overwhelms_sensor());
-  EXPECT_LT(wrong.noise.at(LogChannel::kSpeed).cost, right.noise.at(LogChannel::kSpeed).cost)
+  EXPECT_TRUE(wrong.noise.at({LogChannel::kSpeed}).overwhelms_sensor());
+  EXPECT_LT(wrong.noise.at({LogChannel::kSpeed}).cost, right.noise.at({LogChannel::kSpeed}).cost)
       << "if each fit is compared under its own noise, the wrong one is better";
   EXPECT_GT(aic_lead(right, wrong), 1e4);
   EXPECT_EQ(aic_lead(right, wrong), -aic_lead(wrong, right));

@@ -38,9 +38,9 @@ TEST(LogSample, HasTheChannelsAndInitialStatesOfItsWindows) {
   const LogProblem part = with_windows(problem, {last});
   ASSERT_EQ(part.windows.size(), 1U);
   EXPECT_EQ(part.windows.front().rows.begin, problem.windows[last].rows.begin);
-  EXPECT_TRUE(problem.model.noise.contains(LogChannel::kX));
-  EXPECT_FALSE(part.model.noise.contains(LogChannel::kX));
-  EXPECT_TRUE(part.model.noise.contains(LogChannel::kSpeed));
+  EXPECT_TRUE(has_channel(problem.model.noise, LogChannel::kX));
+  EXPECT_FALSE(has_channel(part.model.noise, LogChannel::kX));
+  EXPECT_TRUE(has_channel(part.model.noise, LogChannel::kSpeed));
   const std::size_t components = problem.model.initial.size();
   const SearchPoint states = with_windows(problem, point, {last});
   ASSERT_EQ(states.initial_states.size(), components);

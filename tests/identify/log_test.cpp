@@ -644,6 +644,46 @@ TEST(FrontWheelDrive, GivesEveryParameterOfALog) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
 }
 
+/// Logs of one robot whose position sensors have this noise, m.
+std::vector<DrivingLog> logs_with_positions(std::initializer_list<double> noise_m) {
+  std::vector<DrivingLog> logs;
+  for (const double one_m : noise_m) {
+    SensorNoise noise = kPreciseSensors;
+    noise.position_m = one_m;
+    const int number = static_cast<int>(logs.size()) + 1;
+    logs.push_back(drive(kTruths[1], 40 + number, {.duration_s = 15.0, .rate_hz = 50.0}, noise));
+    logs.back().number = number;
+  }
+  return logs;
+}
+
+TEST(Log, EstimatesTheNoiseOfEachLogIfTheSensorsDiffer) {
+  constexpr double kGps_m = 0.3;
+  constexpr double kMotionCapture_m = 0.002;
+  const std::vector<DrivingLog> logs = logs_with_positions({kGps_m, kMotionCapture_m});
+  TrialData data;
+  data.logs = logs;
+  const auto result = identify(robot(), data, power_law(), {});
+  ASSERT_TRUE(result);
+  EXPECT_FALSE(has_finding(*result, "coloured-residuals"));
+  EXPECT_FALSE(has_finding(*result, "model-inadequate"));
+  EXPECT_THAT(result->model.record.reports.back().noise, ::testing::HasSubstr("x_m in log 2"));
+  expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
+  const NoiseLevels levels = sensor_noise(fit_windows(logs, kWindow_s));
+  // The standard error of the noise of 750 readings is 4 %.
+  EXPECT_NEAR(levels.at({LogChannel::kX, 1}).white_std, kGps_m, 0.16 * kGps_m);
+  EXPECT_LT(levels.at({LogChannel::kX, 2}).white_std, 0.1 * kGps_m);
+  EXPECT_TRUE(levels.contains({LogChannel::kSpeed}));
+}
+
+TEST(Log, EqualSensorsOfSeveralLogsHaveOneNoiseModel) {
+  const std::vector<DrivingLog> logs = logs_with_positions({0.05, 0.05, 0.05});
+  for (const auto& [sensor, noise] : sensor_noise(fit_windows(logs, kWindow_s))) {
+    EXPECT_EQ(sensor.log, 0) << describe(sensor);
+  }
+}
+
 TEST(Log, ReportsAnotherMassOnTheSecondDayAndWidensTheInterval) {
   Truth heavy = kTruths[0];
   heavy.mass_norm *= 1.2;

@@ -66,10 +66,10 @@ std::vector<double> candidate_gains(const LogProblem& problem, const SearchPoint
 }
 
 /// Mean square of the errors, each divided by the standard deviation of its sensor in `guess`.
-double relative_error_of(const LogProblem& guess, const ErrorsByChannel& errors) {
+double relative_error_of(const LogProblem& guess, const ErrorsBySensor& errors) {
   double sum = 0.0;
-  for (const auto& [channel, parts] : errors) {
-    const double std = guess.model.noise.at(channel).std();
+  for (const auto& [sensor, parts] : errors) {
+    const double std = sensor_in(guess.model.noise, sensor.channel, sensor.log).second.std();
     for (const ErrorSeries& part : parts) {
       for (const double error : part.error) sum += error * error / (std * std);
     }
@@ -165,13 +165,15 @@ NoiseLevels with_drift_limits(const LogProblem& problem, const std::vector<doubl
       plant_of(model.vehicle, parameters_at(model.held, model.quantities, coordinates));
   NoiseLevels levels = model.noise;
   const auto limit = [&](LogChannel channel, double time_constant_s) {
-    const auto found = levels.find(channel);
-    if (found == levels.end() || has_kind(model.quantities, Kind::kSensorLag, channel) ||
+    if (has_kind(model.quantities, Kind::kSensorLag, channel) ||
         has_kind(model.quantities, Kind::kSmoothing, channel)) {
       return;
     }
-    found->second.longest_filter_s =
-        std::clamp(time_constant_s, kShortest_s, ChannelNoise{}.longest_filter_s);
+    for (auto& [sensor, noise] : levels) {
+      if (sensor.channel != channel) continue;
+      noise.longest_filter_s =
+          std::clamp(time_constant_s, kShortest_s, ChannelNoise{}.longest_filter_s);
+    }
   };
   limit(LogChannel::kSpeed,
         relaxation_time_s(plant.surge, plant.mass_norm, fastest_of(problem, LogChannel::kSpeed)));
@@ -202,7 +204,7 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .change_cost = change_cost_of(errors),
           .change_times = change_times_of(errors),
           .change_reach_s = change_reach_s(problem.windows),
-          .errors = errors_by_channel(problem, errors),
+          .errors = errors_by_sensor(problem, errors),
           .candidate_gain = candidate_gains(problem, solved.point, options.candidate_terms),
           .widened = found.widened(),
           .report = log_report({problem, solved, found, bootstrap95}),
@@ -248,7 +250,7 @@ NoiseIteration settled_from(LogProblem problem, std::vector<double> coordinates,
     rounds.is_near = true;
   } else if (is_long(problem)) {
     LogProblem some = with_windows(problem, spread(problem.windows.size(), kSampleWindows));
-    some.model.noise = sensor_noise(some.windows);
+    some.model.noise = sensor_noise(some.windows, problem.model.noise);
     const NoiseRounds of_some = rounds_of(some, options);
     SearchPoint from = from_measured(some, std::move(coordinates));
     NoiseIteration near = settle_noise(std::move(some), std::move(from), of_some);

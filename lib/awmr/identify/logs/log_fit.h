@@ -35,7 +35,7 @@ struct LogFit {
   /// 0 if all times are known. A delay of all commands up to this distance cannot be told from
   /// such changes.
   double change_reach_s = 0.0;
-  ErrorsByChannel errors;  ///< model + bias - measured at the optimum, SI; not whitened
+  ErrorsBySensor errors;  ///< model + bias - measured at the optimum, SI; not whitened
   /// One per term in LogFitOptions::candidate_terms: the decrease of -2 ln L, >= 0, that a score
   /// test predicts for a fit that also estimates this term.
   std::vector<double> candidate_gain;

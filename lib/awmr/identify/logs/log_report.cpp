@@ -12,13 +12,13 @@
 namespace awmr {
 namespace {
 
-/// Describes the noise of each channel: "speed_mps 0.012 m/s, 0.004 of it correlated over 0.4 s;
+/// Describes the noise of each sensor: "speed_mps 0.012 m/s, 0.004 of it correlated over 0.4 s;
 /// yaw_rate_radps 0.03 rad/s".
 std::string in_words(const NoiseLevels& levels) {
   std::string text;
-  for (const auto& [channel, noise] : levels) {
-    text += fmt::format("{}{} {:.3g} {}", text.empty() ? "" : "; ", info(channel).name, noise.std(),
-                        info(channel).unit);
+  for (const auto& [sensor, noise] : levels) {
+    text += fmt::format("{}{} {:.3g} {}", text.empty() ? "" : "; ", describe(sensor), noise.std(),
+                        info(sensor.channel).unit);
     if (noise.differenced > 0.0) text += fmt::format(", differenced ({:.2g})", noise.differenced);
     if (noise.drift_std > 0.0) {
       text += fmt::format(", {:.3g} of it correlated over {:.3g} s", noise.drift_std,
@@ -50,31 +50,34 @@ EstimatorParameter parameter_of(const LogReportInput& input, std::size_t i) {
   return parameter;
 }
 
-/// Standardised residuals of one channel, window after window.
+/// Standardised residuals of one sensor, window after window.
 std::vector<double> series_of(const LogReportInput& input, const std::vector<WindowErrors>& errors,
-                              LogChannel channel) {
+                              const LogSensor& sensor) {
   std::vector<double> series;
   for (std::size_t w = 0; w < errors.size(); ++w) {
-    const std::vector<Sample>& samples = input.problem.windows[w].samples();
+    const FitWindow& window = input.problem.windows[w];
+    if (sensor.log != 0 && sensor.log != window.rows.log->number) continue;
+    const std::vector<Sample>& samples = window.samples();
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      if (samples[i].channel != channel) continue;
+      if (samples[i].channel != sensor.channel) continue;
       series.push_back(errors[w].standardised(eigen_index(i)));
     }
   }
   return series;
 }
 
-/// Tests the residuals of each channel for whiteness and normality. Test names end in the channel.
+/// Tests the residuals of each sensor for whiteness and normality. Test names end in the
+/// sensor.
 std::vector<Diagnostic> residual_tests(const LogReportInput& input) {
   constexpr int kLags = 10;
   const std::vector<WindowErrors> errors = errors_at(input.problem, input.solved.point);
   std::vector<Diagnostic> tests;
-  for (const auto& [channel, noise] : input.problem.model.noise) {
-    const std::vector<double> series = series_of(input, errors, channel);
+  for (const auto& [sensor, noise] : input.problem.model.noise) {
+    const std::vector<double> series = series_of(input, errors, sensor);
     for (auto& test : {whiteness(series, kLags), normality(series)}) {
       if (!test) continue;
       tests.push_back(*test);
-      tests.back().name += fmt::format(" of {}", info(channel).name);
+      tests.back().name += " of " + describe(sensor);
     }
   }
   return tests;
@@ -92,7 +95,7 @@ EstimatorReport log_report(const LogReportInput& input) {
     report.parameters.push_back(parameter_of(input, i));
   }
   report.residual_std = 1.0;  // residuals are standardised
-  for (const auto& [channel, level] : noise) report.rows_used += level.count;
+  for (const auto& [sensor, level] : noise) report.rows_used += level.count;
   report.degrees_of_freedom = report.rows_used - static_cast<int>(input.problem.unknowns());
   report.rank = input.found.rank;
   report.condition_number = input.found.condition_number;

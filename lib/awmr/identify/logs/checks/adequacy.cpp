@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
+#include <set>
 
 #include "awmr/core/containers.h"
 #include "awmr/core/option_text.h"
@@ -27,6 +27,12 @@ std::optional<std::string> try_alternatives(BestFamily alternatives, const Famil
                      aic_decrease_text(aic_lead(alternatives.best.fit, chosen.fit)));
 }
 
+bool has_model_error(const NoiseLevels& noise, LogChannel channel) {
+  return std::ranges::any_of(noise, [channel](const auto& level) {
+    return level.first.channel == channel && level.second.of_the_model();
+  });
+}
+
 /// True for a channel whose large drift makes all intervals invalid: speed; yaw rate; position, if
 /// there is no speed; heading, if there is no yaw rate or if the yaw rate shows a model error too.
 /// Other drifts of position or heading do not count: the GNSS receiver or the compass can cause
@@ -37,10 +43,11 @@ bool is_evaluated(const NoiseLevels& noise, LogChannel channel) {
     case LogChannel::kYawRate:
       return true;
     case LogChannel::kHeading:
-      return !noise.contains(LogChannel::kYawRate) || noise.at(LogChannel::kYawRate).of_the_model();
+      return !has_channel(noise, LogChannel::kYawRate) ||
+             has_model_error(noise, LogChannel::kYawRate);
     case LogChannel::kX:
     case LogChannel::kY:
-      return !noise.contains(LogChannel::kSpeed);
+      return !has_channel(noise, LogChannel::kSpeed);
     default:
       return false;
   }
@@ -49,24 +56,20 @@ bool is_evaluated(const NoiseLevels& noise, LogChannel channel) {
 /// True if the logs measure only positions. Then every model error makes all intervals invalid: it
 /// can also come from a drifting receiver, or from a search that ended in a wrong optimum.
 bool has_only_positions(const NoiseLevels& noise) {
-  return std::ranges::all_of(noise, [](const auto& channel) {
-    return channel.first == LogChannel::kX || channel.first == LogChannel::kY;
+  return std::ranges::all_of(channels_of(noise), [](LogChannel channel) {
+    return channel == LogChannel::kX || channel == LogChannel::kY;
   });
 }
 
-using Channels = std::vector<LogChannel>;
-
-Channels inadequate_channels(const NoiseLevels& noise) {
-  Channels channels;
-  for (const auto& [channel, level] : noise) {
-    if (level.of_the_model()) channels.push_back(channel);
-  }
-  return channels;
+/// The sensors with a model error.
+NoiseLevels inadequate_sensors(NoiseLevels noise) {
+  std::erase_if(noise, [](const auto& level) { return !level.second.of_the_model(); });
+  return noise;
 }
 
-std::string possible_causes(const Channels& channels) {
+std::string possible_causes(const std::set<LogChannel>& channels) {
   std::string sway;
-  if (contains(channels, LogChannel::kSway)) {
+  if (channels.contains(LogChannel::kSway)) {
     sway =
         "the tyres slide, or the sway sensor drifts, is mounted at an angle, or sits ahead of or "
         "behind the centre of gravity";
@@ -80,19 +83,18 @@ std::string possible_causes(const Channels& channels) {
       "a wrong value in the vehicle file (half_track_m, front_axle_m, steering.max_rate_degps); "
       "a sensor with a bias or drift";
   const std::string bias =
-      contains(channels, LogChannel::kYawRate)
+      channels.contains(LogChannel::kYawRate)
           ? " (" + option_text("fit bias.yaw_rate_radps") + " estimates a bias of the yaw rate)"
           : "";
   return causes + bias + (sway.empty() ? "" : "; for the sway speed, " + sway);
 }
 
-std::string describe_error(LogChannel channel, const ChannelNoise& noise) {
-  const auto& [name, unit] = std::pair(info(channel).name, info(channel).unit);
+std::string describe_error(const LogSensor& sensor, const ChannelNoise& noise) {
   const std::string duration = noise.correlation_s < kWindow_s
                                    ? fmt::format("{:.2g} s", noise.correlation_s)
                                    : fmt::format("more than {:g} s", kWindow_s);
-  return fmt::format("{} by {:.3g} {} for {} (sensor noise {:.2g})", name, noise.drift_std, unit,
-                     duration, noise.sensor_std);
+  return fmt::format("{} by {:.3g} {} for {} (sensor noise {:.2g})", describe(sensor),
+                     noise.drift_std, info(sensor.channel).unit, duration, noise.sensor_std);
 }
 
 std::string describe_effect(const Adequacy& adequacy) {
@@ -129,23 +131,24 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
                         const FamilyFit& chosen, bool try_families) {
   Adequacy adequacy;
   const NoiseLevels& noise = chosen.fit.noise;
-  const Channels channels = inadequate_channels(noise);
-  if (channels.empty()) return adequacy;
+  const NoiseLevels inadequate = inadequate_sensors(noise);
+  if (inadequate.empty()) return adequacy;
+  const std::set<LogChannel> channels = channels_of(inadequate);
   std::string errors;
-  for (const LogChannel channel : channels) {
+  for (const auto& [sensor, level] : inadequate) {
+    const LogChannel channel = sensor.channel;
     adequacy.withdraws_intervals |=
-        has_only_positions(noise) ||
-        (noise.at(channel).overwhelms_sensor() && is_evaluated(noise, channel));
+        has_only_positions(noise) || (level.overwhelms_sensor() && is_evaluated(noise, channel));
     adequacy.withdraws_sway |=
         has(chosen.fit.quantities, ParameterId::kSwayAlpha) &&
         (channel == LogChannel::kSway || channel == LogChannel::kX || channel == LogChannel::kY);
     adequacy.withdraws_servo |=
         has(chosen.fit.quantities, ParameterId::kSteeringTimeConstant) &&
         (channel == LogChannel::kHeading || channel == LogChannel::kYawRate);
-    errors += (errors.empty() ? "" : ", ") + describe_error(channel, noise.at(channel));
+    errors += (errors.empty() ? "" : ", ") + describe_error(sensor, level);
   }
   std::string advice = possible_causes(channels);
-  if (contains(channels, LogChannel::kSpeed) && try_families) {
+  if (channels.contains(LogChannel::kSpeed) && try_families) {
     advice = try_alternatives(best_family(logs, power_law, chosen, {.only_candidates = false}),
                               chosen, adequacy)
                  .value_or(advice);

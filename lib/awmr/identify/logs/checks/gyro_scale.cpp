@@ -17,9 +17,9 @@ namespace {
 /// True if a scale error of the yaw rate can be compared with a heading or positions, but is not
 /// estimated.
 bool assumes_scale(const LogFit& fit) {
-  const bool has_yaw_rate = fit.noise.contains(LogChannel::kYawRate);
+  const bool has_yaw_rate = has_channel(fit.noise, LogChannel::kYawRate);
   const bool has_heading =
-      fit.noise.contains(LogChannel::kHeading) || fit.noise.contains(LogChannel::kX);
+      has_channel(fit.noise, LogChannel::kHeading) || has_channel(fit.noise, LogChannel::kX);
   return has_yaw_rate && has_heading &&
          !has_kind(fit.quantities, FreeQuantity::Kind::kSensorScale, LogChannel::kYawRate);
 }

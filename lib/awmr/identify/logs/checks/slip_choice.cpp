@@ -133,7 +133,7 @@ double lead_of(const LogFit& a, const LogFit& b) {
 std::optional<Finding> doubt_slip(const std::vector<DrivingLog>& logs, LogFit& fit) {
   const bool is_of_yaw = slips(fit, LogChannel::kYawRate);
   if (!is_of_yaw && !slips(fit, LogChannel::kSpeed)) return std::nullopt;
-  if (fit.noise.contains(LogChannel::kX)) return std::nullopt;
+  if (has_channel(fit.noise, LogChannel::kX)) return std::nullopt;
   const std::vector<std::string> names = withdraw_of_slip(is_of_yaw, fit.report);
   if (names.empty()) return std::nullopt;
   return Finding{logs.front().file, 0, Severity::kWarning, "wheel-slip",
@@ -168,7 +168,7 @@ std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFi
     }
   }
   if (names.empty()) return doubt_slip(logs, chosen.fit);
-  if (!chosen.fit.noise.contains(LogChannel::kX)) {
+  if (!has_channel(chosen.fit.noise, LogChannel::kX)) {
     append(names, withdraw_of_slip(slips(chosen.fit, LogChannel::kYawRate), chosen.fit.report));
   }
   const double lead = lead_of(chosen.fit, closest->fit);

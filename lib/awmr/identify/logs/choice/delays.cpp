@@ -240,7 +240,7 @@ class TermTrials {
   void consider_filters() {
     // If the speed is the only channel, its filter has the same effect as a motor lag, which is
     // more common and therefore preferred.
-    if (settled_.problem.model.noise.size() <= 1) return;
+    if (channels_of(settled_.problem.model.noise).size() <= 1) return;
     for (const auto& [channel, lag_s] : filters_) {
       if (is_often_averaged(channel, lag_s)) {
         const FreeQuantity averaging = free_term(Kind::kAveraging, channel);
@@ -266,7 +266,7 @@ class TermTrials {
     std::vector<FreeTerm> averaging;
     const LogModel& model = settled_.problem.model;
     for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
-      if (!model.noise.contains(channel)) return;
+      if (!has_channel(model.noise, channel)) return;
       if (has_kind(model.quantities, Kind::kSensorLag, channel)) return;
       if (has_kind(model.quantities, Kind::kAveraging, channel)) return;
       append(filters, second_order_lag_of(channel, delay_s_));

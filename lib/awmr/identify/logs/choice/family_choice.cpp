@@ -51,8 +51,9 @@ bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_ter
   constexpr double kWorthATry = 4.0;  // smallest predicted decrease of -2 ln L that is worth a fit
   if (!fit.usable || largest_gain_of_axis(fit, candidate_terms, of_yaw) > kWorthATry) return true;
   const auto drifts = [&](LogChannel channel) {
-    const auto noise = fit.noise.find(channel);
-    return noise != fit.noise.end() && noise->second.has_slow_drift();
+    return std::ranges::any_of(fit.noise, [channel](const auto& level) {
+      return level.first.channel == channel && level.second.has_slow_drift();
+    });
   };
   return of_yaw ? drifts(LogChannel::kYawRate) || drifts(LogChannel::kHeading)
                 : drifts(LogChannel::kSpeed) || drifts(LogChannel::kX);

@@ -138,10 +138,10 @@ bool has_right_terms(const LogFit& fit) {
 }  // namespace
 
 ErrorSize size_of_errors(std::initializer_list<const LogFit*> fits) {
-  std::map<LogChannel, std::pair<double, double>> sums;  // squares and number of errors
+  std::map<LogSensor, std::pair<double, double>> sums;  // squares and number of errors
   for (const LogFit* fit : fits) {
-    for (const auto& [channel, errors] : fit->errors) {
-      auto& [squares, n] = sums[channel];
+    for (const auto& [sensor, errors] : fit->errors) {
+      auto& [squares, n] = sums[sensor];
       for (const ErrorSeries& part : errors) {
         for (const double e : part.error) squares += e * e;
         n += static_cast<double>(part.error.size());
@@ -149,7 +149,7 @@ ErrorSize size_of_errors(std::initializer_list<const LogFit*> fits) {
     }
   }
   ErrorSize found;
-  for (const auto& [channel, sum] : sums) {
+  for (const auto& [sensor, sum] : sums) {
     const auto [squares, n] = sum;
     found.size += n * std::log(std::max(squares / n, kMinimumStd * kMinimumStd));
     found.count += n;
@@ -159,8 +159,8 @@ ErrorSize size_of_errors(std::initializer_list<const LogFit*> fits) {
 
 double aic_under(const NoiseLevels& noise, const LogFit& fit, double most) {
   double aic = 2.0 * static_cast<double>(fit.quantities.size()) + fit.change_cost;
-  for (const auto& [channel, errors] : fit.errors) {
-    aic += cost_of(errors, noise.at(channel), most);
+  for (const auto& [sensor, errors] : fit.errors) {
+    aic += cost_of(errors, sensor_in(noise, sensor.channel, sensor.log).second, most);
   }
   return aic;
 }

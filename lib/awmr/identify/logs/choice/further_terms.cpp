@@ -42,8 +42,8 @@ bool has_turns(const LogProblem& problem) {
 /// True if a channel measures how the vehicle turns.
 bool measures_turns(const LogProblem& problem) {
   const NoiseLevels& measured = problem.model.noise;
-  return measured.contains(LogChannel::kYawRate) || measured.contains(LogChannel::kHeading) ||
-         measured.contains(LogChannel::kX);
+  return has_channel(measured, LogChannel::kYawRate) ||
+         has_channel(measured, LogChannel::kHeading) || has_channel(measured, LogChannel::kX);
 }
 
 FreeQuantity term_of(Kind kind) { return free_term(kind); }
@@ -60,7 +60,7 @@ void add_term(const LogProblem& problem, What what, bool is_shown,
 void add_times(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   add_term(problem, Kind::kDelay, true, found);
-  for (const auto& [measured, noise] : problem.model.noise) {
+  for (const LogChannel measured : channels_of(problem.model.noise)) {
     const LogChannel channel = measured == LogChannel::kY ? LogChannel::kX : measured;
     if (has_kind(quantities, Kind::kSensorDelay, channel) ||
         has_kind(quantities, Kind::kSensorLag, channel) ||
@@ -70,7 +70,7 @@ void add_times(const LogProblem& problem, std::vector<FreeQuantity>& found) {
     found.push_back(free_term(Kind::kSensorDelay, channel));
   }
   if (found.size() == 1) found.clear();
-  for (const auto& [channel, noise] : problem.model.noise) {
+  for (const LogChannel channel : channels_of(problem.model.noise)) {
     if (is_often_filtered(channel) && !has_kind(quantities, Kind::kSensorLag, channel) &&
         !has_kind(quantities, Kind::kAveraging, channel) &&
         !has_kind(quantities, Kind::kSmoothing, channel)) {
@@ -105,8 +105,8 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
         std::pair(ExtraForce::kYawStribeck, ParameterId::kYawCoulomb)}) {
     add_term(problem, force, has(quantities, coulomb), found);
   }
-  const bool has_heading = problem.model.noise.contains(LogChannel::kHeading) ||
-                           problem.model.noise.contains(LogChannel::kX);
+  const bool has_heading = has_channel(problem.model.noise, LogChannel::kHeading) ||
+                           has_channel(problem.model.noise, LogChannel::kX);
   if (has_heading && !has(quantities, ExtraForce::kSlopeX)) {
     found.push_back(extra_force(ExtraForce::kSlopeX));
     found.push_back(extra_force(ExtraForce::kSlopeY));
@@ -126,11 +126,11 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
 
 void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const NoiseLevels& measured = problem.model.noise;
-  const bool has_position = measured.contains(LogChannel::kX);
-  const bool has_heading = has_position || measured.contains(LogChannel::kHeading);
+  const bool has_position = has_channel(measured, LogChannel::kX);
+  const bool has_heading = has_position || has_channel(measured, LogChannel::kHeading);
   for (const auto& [channel, is_shown] : {std::pair(LogChannel::kYawRate, has_heading),
                                           std::pair(LogChannel::kSpeed, has_position)}) {
-    if (!is_shown || !measured.contains(channel)) continue;
+    if (!is_shown || !has_channel(measured, channel)) continue;
     if (has_kind(problem.model.quantities, Kind::kSensorScale, channel)) continue;
     found.push_back(free_term(Kind::kSensorScale, channel));
   }
@@ -144,7 +144,8 @@ void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   if (has_force_excess(quantities)) return;
   const auto other = place_of(quantities, Kind::kWheelSlip);
   for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
-    if (!problem.model.noise.contains(channel) || has_kind(quantities, Kind::kWheelSlip, channel))
+    if (!has_channel(problem.model.noise, channel) ||
+        has_kind(quantities, Kind::kWheelSlip, channel))
       continue;
     if (channel == LogChannel::kYawRate && !any_log(problem, has_force_difference)) continue;
     for (const bool is_ratio : {false, true}) {
@@ -254,7 +255,8 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
            found);
   add_steering(problem, found);
   const FreeQuantity gyro_bias = free_term(Kind::kBias, LogChannel::kYawRate);
-  if (problem.model.noise.contains(LogChannel::kYawRate) && !has(quantities, gyro_bias.name())) {
+  if (has_channel(problem.model.noise, LogChannel::kYawRate) &&
+      !has(quantities, gyro_bias.name())) {
     found.push_back(gyro_bias);
   }
   append(found, further_log_terms(problem));
@@ -267,16 +269,17 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   add_slip(problem, found);
   const NoiseLevels& measured = problem.model.noise;
   for (const Kind kind : {Kind::kSwayOffset, Kind::kSwayAngle}) {
-    add_term(problem, kind, measured.contains(LogChannel::kSway), found);
+    add_term(problem, kind, has_channel(measured, LogChannel::kSway), found);
   }
-  add_term(problem, Kind::kSpeedOffset,
-           measured.contains(LogChannel::kSpeed) && measures_turns(problem) && has_turns(problem),
-           found);
+  add_term(
+      problem, Kind::kSpeedOffset,
+      has_channel(measured, LogChannel::kSpeed) && measures_turns(problem) && has_turns(problem),
+      found);
   for (const Kind kind : {Kind::kPositionAhead, Kind::kPositionLeft}) {
-    add_term(problem, kind, measured.contains(LogChannel::kX) && has_turns(problem), found);
+    add_term(problem, kind, has_channel(measured, LogChannel::kX) && has_turns(problem), found);
   }
   for (const Kind kind : kCompassTerms) {
-    add_term(problem, kind, measured.contains(LogChannel::kHeading), found);
+    add_term(problem, kind, has_channel(measured, LogChannel::kHeading), found);
   }
   return found;
 }

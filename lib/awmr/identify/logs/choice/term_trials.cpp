@@ -73,7 +73,7 @@ NoiseIteration with_largest_steering(const NoiseIteration& settled) {
 
 double akaike_of(const NoiseIteration& fit) {
   double aic = 2.0 * static_cast<double>(fit.problem.model.quantities.size());
-  for (const auto& [channel, level] : fit.problem.model.noise) {
+  for (const auto& [sensor, level] : fit.problem.model.noise) {
     aic += level.cost + 2.0 * level.numbers();
   }
   return aic + fit.change_cost;

@@ -31,7 +31,7 @@ constexpr double kLargestSlip = 0.25;
 /// True if the slip is larger than kLargestSlip, and no position shows that the wheels slip.
 bool is_implausible(const FoundTerm& slip, const LogFit& fit) {
   return slip.quantity.kind == Kind::kWheelSlip && slip.quantity.is_ratio &&
-         slip.value > kLargestSlip && !fit.noise.contains(LogChannel::kX);
+         slip.value > kLargestSlip && !has_channel(fit.noise, LogChannel::kX);
 }
 
 /// The terms of one kind, acting in all logs, that the fit identifies and that differ significantly from 0, and
@@ -116,7 +116,7 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
   std::vector<FoundTerm> latency = found_terms(fit, Kind::kSensorDelay);
   std::erase_if(latency, [&](const FoundTerm& one) { return is_within_rows(one, fit); });
   std::set<LogChannel> channels;
-  for (const auto& [channel, noise] : fit.noise) {
+  for (const LogChannel channel : channels_of(fit.noise)) {
     channels.insert(channel == LogChannel::kY ? LogChannel::kX : channel);
   }
   if (channels.size() < 2 || latency.size() < channels.size()) return {};

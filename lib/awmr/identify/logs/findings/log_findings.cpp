@@ -70,7 +70,8 @@ void add_text(const std::optional<Identified>& difference, const std::string& lo
 }
 
 /// The finding `delay-differs` about logs in which the vehicle responds later or earlier than in the
-/// first log.
+/// first log. If the times of command changes are uncertain, differences that they can explain are
+/// not reported: the mean of these times can differ between the logs.
 std::vector<Finding> delay_findings(const LogFit& fit, const Logs& logs) {
   constexpr double kNegligible_s = 0.002;
   std::map<int, std::string> texts;  // by the number of the log
@@ -78,6 +79,9 @@ std::vector<Finding> delay_findings(const LogFit& fit, const Logs& logs) {
     if (q.kind != Kind::kDelay || q.log == 0) continue;
     const auto delay = significant(fit, q.name());
     if (!delay || std::abs(delay->value) < kNegligible_s) continue;
+    const double by_rows_s =
+        fit.change_reach_s > 0.0 ? fit.change_reach_s + 2.0 * delay->error : 0.0;
+    if (std::abs(delay->value) < by_rows_s) continue;
     texts[q.log] = fmt::format("{:.3f} +- {:.3f} s {} in {}", std::abs(delay->value), delay->error,
                                delay->value > 0.0 ? "later" : "earlier", log_text(q.log, logs));
   }
@@ -130,7 +134,7 @@ std::vector<Finding> difference_findings(const LogFit& fit, const Logs& logs) {
 /// Finding `gyro-bias` about a constant offset of the yaw rate. With a heading,
 /// log_consistency.cpp reports it.
 std::vector<Finding> gyro_bias_findings(const LogFit& fit, const Logs& logs) {
-  if (fit.noise.contains(LogChannel::kHeading)) return {};
+  if (has_channel(fit.noise, LogChannel::kHeading)) return {};
   std::map<int, std::string> texts;  // by the number of the log; 0: of all logs
   for (const FreeQuantity& q : fit.quantities) {
     if (q.kind != Kind::kBias || q.channel != LogChannel::kYawRate) continue;

@@ -1,5 +1,6 @@
 #include "awmr/identify/logs/problem/channel_noise.h"
 
+#include <fmt/format.h>
 #include <nlopt.h>
 
 #include <algorithm>
@@ -20,7 +21,15 @@ namespace {
 struct Roughness {
   double squares = 0.0;
   int count = 0;
+  int readings = 0;
+
+  double std() const {
+    return std::max(count > 0 ? std::sqrt(squares / (6.0 * count)) : 1.0, kMinimumStd);
+  }
 };
+
+/// Roughness of each channel in each log (DrivingLog::number).
+using RoughnessByLog = std::map<LogChannel, std::map<int, Roughness>>;
 
 void add_second_differences(const std::vector<double>& values, Roughness& roughness) {
   for (std::size_t k = 2; k < values.size(); ++k) {
@@ -28,6 +37,58 @@ void add_second_differences(const std::vector<double>& values, Roughness& roughn
     roughness.squares += d * d;
     ++roughness.count;
   }
+  roughness.readings += static_cast<int>(values.size());
+}
+
+RoughnessByLog roughness_of(const std::vector<FitWindow>& windows) {
+  RoughnessByLog roughness;
+  for (const FitWindow& window : windows) {
+    const DrivingLog& log = *window.rows.log;
+    std::map<LogChannel, std::vector<double>> values;
+    for (const Sample& sample : window.samples()) {
+      values[sample.channel].push_back(log[sample.channel]->value[sample.row]);
+    }
+    for (const auto& [channel, series] : values) {
+      add_second_differences(series, roughness[channel][log.number]);
+    }
+  }
+  return roughness;
+}
+
+/// True if the noise of a channel differs between logs, see sensor_noise(). The standard error of
+/// ln sigma is 1/sqrt(n) for white noise, because neighbouring differences are correlated.
+bool differs_between(const std::map<int, Roughness>& by_log) {
+  constexpr int kFewest = 30;
+  constexpr double kSmallestRatio = 1.3;
+  constexpr double kErrors = 4.0;
+  bool differs = false;
+  for (const auto& [log, one] : by_log) {
+    if (one.count < kFewest) return false;
+    for (const auto& [other_log, other] : by_log) {
+      const double difference = std::log(one.std() / other.std());
+      const double error = std::sqrt(1.0 / one.count + 1.0 / other.count);
+      differs |= difference > std::max(std::log(kSmallestRatio), kErrors * error);
+    }
+  }
+  return differs;
+}
+
+/// Noise levels with the sensors of `levels`, as far as they occur.
+NoiseLevels levels_of(const RoughnessByLog& roughness, const NoiseLevels& levels) {
+  std::map<LogSensor, Roughness> sums;
+  for (const auto& [channel, by_log] : roughness) {
+    for (const auto& [log, one] : by_log) {
+      Roughness& sum = sums[sensor_in(levels, channel, log).first];
+      sum.squares += one.squares;
+      sum.count += one.count;
+      sum.readings += one.readings;
+    }
+  }
+  NoiseLevels found;
+  for (const auto& [sensor, sum] : sums) {
+    found[sensor] = {.white_std = sum.std(), .sensor_std = sum.std(), .count = sum.readings};
+  }
+  return found;
 }
 
 /// Sums over the innovations nu_k with the variances S_k: sum nu_k^2/S_k, sum ln S_k, and their
@@ -287,25 +348,39 @@ NoiseCandidate likeliest_difference(std::span<const ErrorSeries> series) {
 
 }  // namespace
 
+std::string describe(const LogSensor& sensor) {
+  const std::string_view name = info(sensor.channel).name;
+  return sensor.log != 0 ? fmt::format("{} in log {}", name, sensor.log) : std::string(name);
+}
+
+std::set<LogChannel> channels_of(const NoiseLevels& levels) {
+  std::set<LogChannel> channels;
+  for (const auto& [sensor, noise] : levels) channels.insert(sensor.channel);
+  return channels;
+}
+
+bool has_channel(const NoiseLevels& levels, LogChannel channel) {
+  const auto first = levels.lower_bound({channel});
+  return first != levels.end() && first->first.channel == channel;
+}
+
+const NoiseLevels::value_type& sensor_in(const NoiseLevels& levels, LogChannel channel, int log) {
+  const auto own = levels.find({channel, log});
+  return own != levels.end() ? *own : *levels.lower_bound({channel});
+}
+
 NoiseLevels sensor_noise(const std::vector<FitWindow>& windows) {
+  const RoughnessByLog roughness = roughness_of(windows);
   NoiseLevels levels;
-  std::map<LogChannel, Roughness> roughness;
-  for (const FitWindow& window : windows) {
-    std::map<LogChannel, std::vector<double>> values;
-    for (const Sample& sample : window.samples()) {
-      values[sample.channel].push_back((*window.rows.log)[sample.channel]->value[sample.row]);
-      ++levels[sample.channel].count;
-    }
-    for (const auto& [channel, series] : values) {
-      add_second_differences(series, roughness[channel]);
-    }
+  for (const auto& [channel, by_log] : roughness) {
+    const bool differs = differs_between(by_log);
+    for (const auto& [log, one] : by_log) levels[{channel, differs ? log : 0}];
   }
-  for (auto& [channel, noise] : levels) {
-    const auto& [squares, count] = roughness[channel];
-    noise.white_std = std::max(count > 0 ? std::sqrt(squares / (6.0 * count)) : 1.0, kMinimumStd);
-    noise.sensor_std = noise.white_std;
-  }
-  return levels;
+  return levels_of(roughness, levels);
+}
+
+NoiseLevels sensor_noise(const std::vector<FitWindow>& windows, const NoiseLevels& levels) {
+  return levels_of(roughness_of(windows), levels);
 }
 
 double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise, double most) {

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "awmr/identify/logs/problem/windows.h"
@@ -66,7 +68,28 @@ struct ChannelNoise {
   bool has_slow_drift() const { return drift_std > 0.25 * sensor_std && correlation_s > 0.2; }
 };
 
-using NoiseLevels = std::map<LogChannel, ChannelNoise>;
+/// Sensor of a channel, in all logs or in a single log. Logs of one vehicle can
+/// have different sensors, for example GPS in one log and motion capture in another.
+struct LogSensor {
+  LogChannel channel;
+  int log = 0;  ///< DrivingLog::number; 0: the noise is the same in all logs
+
+  auto operator<=>(const LogSensor&) const = default;
+};
+
+/// Noise of all measured channels. A channel has one sensor for all logs, or one for each log.
+using NoiseLevels = std::map<LogSensor, ChannelNoise>;
+
+/// "x_m", or "x_m in log 2" for the sensor of a single log.
+std::string describe(const LogSensor& sensor);
+
+std::set<LogChannel> channels_of(const NoiseLevels& levels);
+
+bool has_channel(const NoiseLevels& levels, LogChannel channel);
+
+/// Sensor of a channel in the log with this number: that of the log, else that of all logs, else
+/// that of the first log with one. Precondition: has_channel().
+const NoiseLevels::value_type& sensor_in(const NoiseLevels& levels, LogChannel channel, int log);
 
 /// Smallest standard deviation of the noise, SI, so that noise-free data have a finite weight.
 inline constexpr double kMinimumStd = 1e-9;
@@ -76,7 +99,13 @@ inline constexpr double kMinimumStd = 1e-9;
 /// white noise have the variance 6 sigma^2:
 ///
 ///     sigma^2 = sum d^2 / (6 n)
+///
+/// A channel has one sensor for each log if sigma differs between two logs by more than 30 % and
+/// significantly, and each log has at least 30 differences. Otherwise all logs share one sensor.
 NoiseLevels sensor_noise(const std::vector<FitWindow>& windows);
+
+/// The same with the sensors of `levels`, for a part of the windows of `levels`.
+NoiseLevels sensor_noise(const std::vector<FitWindow>& windows, const NoiseLevels& levels);
 
 /// The errors of one channel in one window, in order of time.
 struct ErrorSeries {
@@ -84,8 +113,8 @@ struct ErrorSeries {
   std::vector<double> since_s;  ///< time since the previous error, s; 0 for the first
 };
 
-/// The errors of a fit by channel, one series per window.
-using ErrorsByChannel = std::map<LogChannel, std::vector<ErrorSeries>>;
+/// The errors of a fit by sensor, one series per window.
+using ErrorsBySensor = std::map<LogSensor, std::vector<ErrorSeries>>;
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 

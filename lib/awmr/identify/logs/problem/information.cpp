@@ -54,7 +54,7 @@ Scores scores_of(const std::vector<FitWindow>& windows, const std::vector<Window
 
 double block_length_s(const NoiseLevels& noise) {
   double longest_s = 0.0;
-  for (const auto& [channel, level] : noise) longest_s = std::max(longest_s, level.correlation_s);
+  for (const auto& [sensor, level] : noise) longest_s = std::max(longest_s, level.correlation_s);
   return std::clamp(5.0 * longest_s, 1.0, kWindow_s);
 }
 

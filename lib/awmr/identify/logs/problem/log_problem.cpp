@@ -68,9 +68,10 @@ LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions&
 }
 
 void set_noise(const NoiseLevels& levels, LogProblem& problem) {
-  for (auto& [channel, noise] : problem.model.noise) {
-    const auto level = levels.find(channel);
-    if (level != levels.end()) noise = level->second;
+  for (auto& [sensor, noise] : problem.model.noise) {
+    if (!has_channel(levels, sensor.channel)) continue;
+    const int log = sensor.log != 0 ? sensor.log : problem.windows.front().rows.log->number;
+    noise = sensor_in(levels, sensor.channel, log).second;
   }
 }
 
@@ -136,10 +137,13 @@ std::vector<std::size_t> spread(std::size_t size, std::size_t count) {
 LogProblem with_windows(const LogProblem& problem, const std::vector<std::size_t>& windows) {
   LogProblem part = problem;
   part.windows.clear();
-  std::set<LogChannel> measured;
+  std::set<LogSensor> measured;
   for (const std::size_t w : windows) {
-    part.windows.push_back(problem.windows[w]);
-    for (const Sample& sample : problem.windows[w].samples()) measured.insert(sample.channel);
+    const FitWindow& window = part.windows.emplace_back(problem.windows[w]);
+    const int log = window.rows.log->number;
+    for (const Sample& sample : window.samples()) {
+      measured.insert(sensor_in(problem.model.noise, sample.channel, log).first);
+    }
   }
   std::erase_if(part.model.noise,
                 [&](const auto& level) { return !measured.contains(level.first); });

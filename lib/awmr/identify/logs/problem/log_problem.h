@@ -66,7 +66,8 @@ double step_s_at(const LogModel& model, const std::vector<double>& coordinates);
 /// weight 1 of all samples (a robust loss acts later). The logs must outlive the problem.
 LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
-/// Replaces the noise levels of the channels in `levels`. Other channels keep theirs.
+/// Replaces the noise levels of the channels in `levels`, in each log by that of the same log, or by
+/// that of all logs. Other channels keep theirs.
 void set_noise(const NoiseLevels& levels, LogProblem& problem);
 
 /// Returns the search point with these coordinates and the measured initial states of all windows.
@@ -100,8 +101,8 @@ bool is_long(const LogProblem& problem);
 /// Returns `count` evenly spaced indices out of `size`, or all indices if there are fewer.
 std::vector<std::size_t> spread(std::size_t size, std::size_t count);
 
-/// Returns the problem with only these windows (indices). Leaves out channels without samples in
-/// them.
+/// Returns the problem with only these windows (indices). Leaves out sensors without
+/// samples in them.
 LogProblem with_windows(const LogProblem& problem, const std::vector<std::size_t>& windows);
 
 /// Returns the point with only the initial states of these windows (indices). `problem`: problem to

@@ -12,10 +12,11 @@
 namespace awmr {
 namespace {
 
-ErrorsByChannel by_channel(const std::vector<FitWindow>& windows,
-                           const std::vector<WindowErrors>& errors) {
-  std::map<LogChannel, std::vector<ErrorSeries>> channels;
+ErrorsBySensor by_sensor(const LogProblem& problem, const std::vector<WindowErrors>& errors) {
+  const std::vector<FitWindow>& windows = problem.windows;
+  ErrorsBySensor sensors;
   for (std::size_t w = 0; w < windows.size(); ++w) {
+    const int log = windows[w].rows.log->number;
     std::map<LogChannel, ErrorSeries> series;
     const std::vector<Sample>& samples = windows[w].samples();
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -23,51 +24,53 @@ ErrorsByChannel by_channel(const std::vector<FitWindow>& windows,
       series[sample.channel].error.push_back(errors[w].raw(eigen_index(i)));
       series[sample.channel].since_s.push_back(sample.since_s);
     }
-    for (auto& [channel, part] : series) channels[channel].push_back(std::move(part));
+    for (auto& [channel, part] : series) {
+      sensors[sensor_in(problem.model.noise, channel, log).first].push_back(std::move(part));
+    }
   }
-  return channels;
+  return sensors;
 }
 
-/// Clips the errors of a channel at three standard deviations, which are estimated by the median.
-void clip(std::vector<ErrorSeries>& channel) {
+/// Clips the errors of one sensor at three standard deviations, which are estimated by the median.
+void clip(std::vector<ErrorSeries>& sensor) {
   std::vector<double> all;
-  for (const ErrorSeries& part : channel) append(all, part.error);
+  for (const ErrorSeries& part : sensor) append(all, part.error);
   const Eigen::Map<const Eigen::VectorXd> errors(all.data(), rows_of(all));
   const double limit = 3.0 * median_scale(errors);
-  for (ErrorSeries& part : channel) {
+  for (ErrorSeries& part : sensor) {
     for (double& e : part.error) e = std::clamp(e, -limit, limit);
   }
 }
 
 }  // namespace
 
-ErrorsByChannel errors_by_channel(const LogProblem& problem,
-                                  const std::vector<WindowErrors>& errors) {
-  ErrorsByChannel channels = by_channel(problem.windows, errors);
-  if (problem.loss == Loss::kSquared) return channels;
-  for (auto& [name, channel] : channels) clip(channel);
-  return channels;
+ErrorsBySensor errors_by_sensor(const LogProblem& problem,
+                                const std::vector<WindowErrors>& errors) {
+  ErrorsBySensor sensors = by_sensor(problem, errors);
+  if (problem.loss == Loss::kSquared) return sensors;
+  for (auto& [sensor, parts] : sensors) clip(parts);
+  return sensors;
 }
 
 namespace {
 
 NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErrors>& errors) {
-  const ErrorsByChannel channels = errors_by_channel(problem, errors);
+  const ErrorsBySensor sensors = errors_by_sensor(problem, errors);
   const double spent = static_cast<double>(problem.unknowns());
   const double free_share = std::max(0.1, 1.0 - spent / problem.readings());
-  const std::vector<std::pair<LogChannel, ChannelNoise>> before(problem.model.noise.begin(),
-                                                                problem.model.noise.end());
+  const std::vector<std::pair<LogSensor, ChannelNoise>> before(problem.model.noise.begin(),
+                                                               problem.model.noise.end());
   std::vector<ChannelNoise> after(before.size());
   parallel_for(before.size(), problem.threads, [&](std::size_t i) {
-    after[i] = likeliest_noise(channels.at(before[i].first), free_share, before[i].second);
+    after[i] = likeliest_noise(sensors.at(before[i].first), free_share, before[i].second);
   });
   NoiseLevels levels;
   for (std::size_t i = 0; i < before.size(); ++i) levels[before[i].first] = after[i];
   return levels;
 }
 
-/// Largest change of the noise model of any channel from `before` to `after`. The change of a
-/// channel is the largest of these numbers:
+/// Largest change of the noise model of any sensor from `before` to `after`. The change of a sensor
+/// is the largest of these numbers:
 ///   - the relative change of the total standard deviation;
 ///   - the change of the standard deviation of the drift, relative to the total standard deviation;
 ///   - the change of theta of differenced noise;
@@ -75,8 +78,8 @@ NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErro
 ///     total noise.
 double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
   double change = 0.0;
-  for (const auto& [channel, noise] : after) {
-    const ChannelNoise& old = before.at(channel);
+  for (const auto& [sensor, noise] : after) {
+    const ChannelNoise& old = before.at(sensor);
     const double std = noise.std();
     change = std::max({change, std::abs(std / old.std() - 1.0),
                        std::abs(noise.drift_std - old.drift_std) / std,
@@ -112,9 +115,11 @@ void weigh(LogProblem& problem, const std::vector<WindowErrors>& errors) {
   if (problem.loss == Loss::kSquared) return;
   for (std::size_t w = 0; w < problem.windows.size(); ++w) {
     FitWindow& window = problem.windows[w];
+    const int log = window.rows.log->number;
     window.weights.clear();
     for (std::size_t i = 0; i < window.samples().size(); ++i) {
-      const double std = problem.model.noise.at(window.samples()[i].channel).std();
+      const LogChannel channel = window.samples()[i].channel;
+      const double std = sensor_in(problem.model.noise, channel, log).second.std();
       window.weights.push_back(sqrt_weight(problem.loss, errors[w].raw(eigen_index(i)) / std));
     }
   }

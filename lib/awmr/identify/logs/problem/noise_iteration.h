@@ -16,10 +16,9 @@ struct NoiseIteration {
   bool gave_up = false;      ///< true: first_cost exceeds NoiseRounds::give_up_above
 };
 
-/// Collects the errors (before whitening) by channel. If the fit has a robust loss, clips them at
+/// Collects the errors (before whitening) by sensor. If the fit has a robust loss, clips them at
 /// three robust standard deviations, because outliers would increase the estimated noise.
-ErrorsByChannel errors_by_channel(const LogProblem& problem,
-                                  const std::vector<WindowErrors>& errors);
+ErrorsBySensor errors_by_sensor(const LogProblem& problem, const std::vector<WindowErrors>& errors);
 
 /// Options of settle_noise().
 struct NoiseRounds {

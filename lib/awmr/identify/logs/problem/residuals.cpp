@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/problem/product_sums.h"
@@ -53,9 +54,10 @@ template <class Visit>
 void for_each_smoothed_reading(const LogModel& model, const FitWindow& window,
                                const SimulatedVehicle& vehicle, std::size_t columns, Visit visit) {
   std::array<ReadingSeries, kChannelCount> series;
+  const std::set<LogChannel> measured = channels_of(model.noise);
   for_each_row(model, window, vehicle, columns,
                [&](std::size_t, SensorReadings& readings, const LinearMotion& now) {
-                 for (const auto& [c, noise] : model.noise) {
+                 for (const LogChannel c : measured) {
                    const double reading = readings.read(c, now);
                    series[at(c)].add(reading, readings.row());
                  }
@@ -124,6 +126,10 @@ struct RowWhitener {
   std::vector<WhitenerState> states;
 };
 
+const ChannelNoise& noise_of(const LogModel& model, const FitWindow& window, LogChannel channel) {
+  return sensor_in(model.noise, channel, window.rows.log->number).second;
+}
+
 class Blocks {
  public:
   Blocks(const FitWindow& window, double block_s)
@@ -165,7 +171,8 @@ ErrorRows error_rows(const LogModel& model, const FitWindow& window, const doubl
                    const Eigen::Map<const Eigen::RowVectorXd> numbers(row.data(), columns);
                    rows.raw.row(eigen_index(i)) = numbers;
                    auto& whitener = whiteners[at(samples[i].channel)];
-                   if (!whitener) whitener.emplace(model.noise.at(samples[i].channel), m + 1);
+                   if (!whitener)
+                     whitener.emplace(noise_of(model, window, samples[i].channel), m + 1);
                    whitener->next(samples[i].since_s, window.weight(i), row);
                    rows.standardised.row(eigen_index(i)) = numbers;
                  });
@@ -226,7 +233,7 @@ WindowErrors errors_of(const LogModel& model, const FitWindow& window, const dou
   for_each_error(model, window, vehicle_at(model, window, coordinates, initial_state), 0,
                  [&](std::size_t i, double error, const std::vector<double>&) {
                    auto& whitener = whiteners[at(samples[i].channel)];
-                   if (!whitener) whitener.emplace(model.noise.at(samples[i].channel));
+                   if (!whitener) whitener.emplace(noise_of(model, window, samples[i].channel));
                    const auto [value, variance] = whitener->next(error, samples[i].since_s);
                    result.raw(eigen_index(i)) = error;
                    result.standardised(eigen_index(i)) =
@@ -254,7 +261,7 @@ WindowSums sums_of(const LogModel& model, const FitWindow& window, const double*
                    }
                    auto& whitener = whiteners[at(sample.channel)];
                    if (!whitener) {
-                     whitener.emplace(model.noise.at(sample.channel), sums.columns());
+                     whitener.emplace(noise_of(model, window, sample.channel), sums.columns());
                    }
                    row[last] = error;
                    whitener->next(sample.since_s, window.weight(i), row);

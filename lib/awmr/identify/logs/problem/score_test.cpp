@@ -35,7 +35,7 @@ ScoreTest test_one(const Eigen::MatrixXd& h, const std::vector<Eigen::VectorXd>&
 }  // namespace
 
 LogProblem with_white_noise(LogProblem problem) {
-  for (auto& [channel, noise] : problem.model.noise) {
+  for (auto& [sensor, noise] : problem.model.noise) {
     if (noise.differenced > 0.0) continue;  // has no drift
     noise.white_std = noise.std();
     noise.drift_std = 0.0;
