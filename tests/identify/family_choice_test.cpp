@@ -72,10 +72,14 @@ TEST(Multistart, IsFarWorseByTheErrorsOfItsQuickSearches) {
   const BestSoFar noisy{.relative_error = 4.0, .has_large_drift = false};
   EXPECT_FALSE(is_far_worse(search(4.39), noisy));
   EXPECT_TRUE(is_far_worse(search(4.41), noisy));
-  // With a large drift of the best fit, another model has to reduce the mean square by 30 %.
+  // With a large drift of the best fit, another model has to reduce the mean square in excess of
+  // the sensor noise by 30 %: 1 + 0.7 (4 - 1) = 3.1, 1 + 0.7 (1.4 - 1) = 1.28.
   const BestSoFar drifting{.relative_error = 4.0, .has_large_drift = true};
-  EXPECT_FALSE(is_far_worse(search(2.7), drifting));
-  EXPECT_TRUE(is_far_worse(search(2.9), drifting));
+  EXPECT_FALSE(is_far_worse(search(3.0), drifting));
+  EXPECT_TRUE(is_far_worse(search(3.2), drifting));
+  const BestSoFar little{.relative_error = 1.4, .has_large_drift = true};
+  EXPECT_FALSE(is_far_worse(search(1.2), little));
+  EXPECT_TRUE(is_far_worse(search(1.3), little));
   // A model that needs a large gain has to lower -2 ln L by 5, under the noise of the best fit.
   const BestSoFar good{.relative_error = 0.5, .has_large_drift = false, .needs_large_gain = true};
   EXPECT_TRUE(is_far_worse(search(0.498), good)) << "-2 ln L is lower by 4";

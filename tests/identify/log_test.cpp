@@ -583,6 +583,33 @@ INSTANTIATE_TEST_SUITE_P(Short, BackEmfOfSeeds, ::testing::Values(1));
 /// With three seeds, also a check of the interval's coverage.
 INSTANTIATE_TEST_SUITE_P(Long, BackEmfOfSeeds, ::testing::Values(3));
 
+TEST(BackEmf, IsFoundInLogsFromDifferentGround) {
+  constexpr double kHigher = 1.2;
+  // Its drag is smaller than the difference between the grounds, which hides it at first.
+  constexpr double kSmallBackEmf = 0.04;
+  Plant<double> geared = plant(kTruths[0]);
+  geared.back_emf_s_per_m = kSmallBackEmf;
+  geared.surge = {.alpha = 1.0, .beta = 1.0, .coulomb = 0.12};
+  TrialData data;
+  for (int number = 1; number <= 2; ++number) {
+    Random random(static_cast<std::uint64_t>(number), 5);
+    const DrivePlan plan{.duration_s = 20.0, .rate_hz = 50.0, .drive = 70U + number};
+    data.logs.push_back(simulate_log(geared, robot(), plan, kMostPreciseSensors, random));
+    data.logs.back().number = number;
+    for (Resistance<double>* one : {&geared.surge, &geared.yaw}) {
+      one->alpha *= kHigher;
+      one->coulomb *= kHigher;
+    }
+  }
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "back-emf"));
+  EXPECT_TRUE(has_finding(*result, "resistance-differs"));
+  EXPECT_FALSE(has_finding(*result, "model-inadequate"));
+  expect_recovered(*result, ParameterId::kBackEmf, kSmallBackEmf, 4.5);
+  expect_recovered(*result, ParameterId::kMassNorm, kTruths[0].mass_norm, 4.5);
+}
+
 TEST(BackEmf, IsNotFoundForIdealMotorsAndRefusedOnRequest) {
   TrialData data;
   data.logs = {drive(kTruths[0], 31, {.duration_s = 20.0, .rate_hz = 50.0}, kPreciseSensors)};

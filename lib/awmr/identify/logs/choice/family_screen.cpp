@@ -169,7 +169,8 @@ FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power
     });
   };
   std::erase_if(options.terms, [&](const FreeTerm& term) {
-    return !term.quantity.is_ramp() || is_requested(term);
+    const bool stays = term.quantity.is_ramp() || term.quantity.log != 0;
+    return !stays || is_requested(term);
   });
   append(options.terms, power_law.terms);
   return fit_with(logs, std::move(options), rough.surge, rough.yaw);

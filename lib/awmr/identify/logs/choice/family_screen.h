@@ -40,8 +40,8 @@ struct OpenAxes {
 FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                           const FamilyFit& first, const OpenAxes& open);
 
-/// Fits the families and the back-EMF of the rough fit `rough`, starting at its optimum, but
-/// with its ramps, but without its delay and lags. Then searches delays and command errors, and
+/// Fits the families and the back-EMF of the rough fit `rough`, starting at its optimum, with its
+/// ramps and terms of single logs, but without its delay and lags. Then searches delays and command errors, and
 /// tests the candidate terms of `power_law`.
 FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                  const FamilyFit& rough);

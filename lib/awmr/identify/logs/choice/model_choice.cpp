@@ -51,6 +51,31 @@ double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOpt
   return kEvaluations * kStepsOfRow * rows * (1.0 + derivatives);
 }
 
+bool has_log_terms(const LogFit& fit) {
+  return std::ranges::any_of(fit.quantities, [](const FreeQuantity& q) { return q.log != 0; });
+}
+
+/// The fit without the delays, errors and forces that it estimates for all logs, which may imitate a
+/// family or back-EMF. Keeps the terms of single logs, a delay of the commands and biases. Only
+/// quantities and coordinates are right.
+FamilyFit without_other_terms(FamilyFit fit) {
+  std::vector<FreeQuantity>& quantities = fit.fit.quantities;
+  for (std::size_t i = quantities.size(); i-- > 0;) {
+    const FreeQuantity& q = quantities[i];
+    if (q.log != 0 || q.is(Kind::kParameter) || q.is(Kind::kDelay) || q.is(Kind::kBias)) continue;
+    const auto place = static_cast<std::ptrdiff_t>(i);
+    quantities.erase(quantities.begin() + place);
+    fit.fit.coordinates.erase(fit.fit.coordinates.begin() + place);
+  }
+  return fit;
+}
+
+/// True if both fits have the same families, and both or none estimates the back-EMF.
+bool has_same_model(const FamilyFit& a, const FamilyFit& b) {
+  return a.surge == b.surge && a.yaw == b.yaw &&
+         a.options.frees(ParameterId::kBackEmf) == b.options.frees(ParameterId::kBackEmf);
+}
+
 /// If LogFit::relative_error is above this, the resistance family is probably wrong.
 constexpr double kErrorOfModel = 1.5;
 
@@ -133,6 +158,20 @@ Finding measured_steering_finding(const std::string& file) {
 
 namespace {
 
+/// Screens families and back-EMF again if `first` has found differences between the logs, which the
+/// first screening did not contain, and its errors are still too large. Returns the refined fit of
+/// another model, or `first` if no other model is likelier.
+FamilyFit screened_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                         const IdentifyOptions& options, FamilyFit first) {
+  const OpenAxes open = open_axes(power_law, options);
+  const bool is_wrong = first.fit.usable && first.fit.relative_error > kErrorOfModel;
+  const bool has_back_emf = first.options.frees(ParameterId::kBackEmf);
+  if (!is_wrong || !open.any() || has_back_emf || !has_log_terms(first.fit)) return first;
+  const FamilyFit again = likely_families(logs, power_law, without_other_terms(first), open);
+  if (has_same_model(again, first)) return first;
+  return refine(logs, with_optional_coulomb(power_law, options, again.surge, again.yaw), again);
+}
+
 struct Chosen {
   BestFamily found;
   bool may_have_back_emf = false;  ///< true: the first fit indicates back-EMF
@@ -189,8 +228,9 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
                             const IdentifyOptions& options, BestFamily ideal) {
   show_step(options, "trying back-EMF of the motors");
   LogFitOptions freed = with_back_emf(power_law);
-  const FamilyFit same = fit_from(logs, with_limits_for_gain(ideal.best, logs, freed), ideal.best,
-                                  ideal.best.surge, ideal.best.yaw);
+  // The limits are relative to the quick searches of a fit without back-EMF.
+  const LogFitOptions limited = with_back_emf(with_limits_for_gain(ideal.best, logs, power_law));
+  const FamilyFit same = fit_from(logs, limited, ideal.best, ideal.best.surge, ideal.best.yaw);
   ideal.best = searched_again(logs, power_law, std::move(ideal.best), same);
   if (!shows_back_emf(same, ideal.best)) {
     if (!same.fit.usable && !same.fit.gave_up) {
@@ -217,6 +257,7 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
 
 BestFamily choose_model(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
                         const IdentifyOptions& options, FamilyFit first) {
+  first = screened_again(logs, power_law, options, std::move(first));
   if (first.options.frees(ParameterId::kBackEmf) && !power_law.frees(ParameterId::kBackEmf)) {
     if (auto with = with_screened_back_emf(logs, power_law, options, first)) {
       return *std::move(with);

@@ -65,7 +65,8 @@ bool is_far_worse(const Multistart& search, const BestSoFar& best) {
   constexpr double kFar = 100.0;
   constexpr double kMuchLess = 0.7;
   constexpr double kLittle = 5.0;
-  if (best.has_large_drift && search.relative_error > kMuchLess * best.relative_error) return true;
+  const double of_model = std::max(0.0, best.relative_error - 1.0);
+  if (best.has_large_drift && search.relative_error > 1.0 + kMuchLess * of_model) return true;
   const double gain = search.readings * (1.0 - search.relative_error / best.relative_error);
   if (best.needs_large_gain && search.readings > 0 && gain < kLittle) return true;
   return search.readings * (search.relative_error - best.relative_error) >

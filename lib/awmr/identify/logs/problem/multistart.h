@@ -28,8 +28,8 @@ struct Multistart {
 ///   - -2 ln L is higher by more than 100 than that of the best fit after its quick searches. It is
 ///     computed with noise levels at which the best fit so far has no model error.
 ///   - The errors of the best fit have a large drift, so that it gets no intervals, and this model
-///     does not reduce the mean square error of the best fit by 30 %. (In this case both models are
-///     wrong, and AIC cannot decide between two wrong models.)
+///     does not reduce its mean square error beyond that of the sensor noise by 30 %. (In this case
+///     both models are wrong, and AIC cannot decide between two wrong models.)
 ///   - The model is selected only with a much lower AIC (BestSoFar::needs_large_gain), but -2 ln L
 ///     of its quick searches is lower by less than 5.
 bool is_far_worse(const Multistart& search, const BestSoFar& best);
