@@ -593,7 +593,7 @@ TEST(BackEmf, IsFoundInLogsFromDifferentGround) {
   TrialData data;
   for (int number = 1; number <= 2; ++number) {
     Random random(static_cast<std::uint64_t>(number), 5);
-    const DrivePlan plan{.duration_s = 20.0, .rate_hz = 50.0, .drive = 70U + number};
+    const DrivePlan plan{.duration_s = 16.0, .rate_hz = 25.0, .drive = 70U + number};
     data.logs.push_back(simulate_log(geared, robot(), plan, kMostPreciseSensors, random));
     data.logs.back().number = number;
     for (Resistance<double>* one : {&geared.surge, &geared.yaw}) {
