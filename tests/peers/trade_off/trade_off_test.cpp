@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 #include "peers/trade_off/tuned_case.h"
 #include "tune/vehicles.h"
