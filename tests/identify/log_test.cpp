@@ -704,6 +704,35 @@ TEST(Log, EstimatesTheNoiseOfEachLogIfTheSensorsDiffer) {
   EXPECT_TRUE(levels.contains({LogChannel::kSpeed}));
 }
 
+/// Keeps only every n-th reading of the positions.
+void slow_positions(DrivingLog& log, std::size_t n) {
+  for (const LogChannel channel : {LogChannel::kX, LogChannel::kY}) {
+    Measured& positions = *log[channel];
+    positions.fresh_count = 0;
+    for (std::size_t row = 0; row < positions.fresh.size(); ++row) {
+      positions.fresh[row] = row % n == 0;
+      positions.fresh_count += row % n == 0 ? 1 : 0;
+    }
+  }
+}
+
+// The bias is large beside the noise of the heading, so the first quick fit is far from the log.
+// Windows shorter than the time between two positions would fit every position exactly.
+TEST(Log, PositionsOncePerSecondBesideAPreciseHeadingAndABiasedGyroscope) {
+  constexpr double kBias_radps = -0.01;
+  constexpr SensorNoise kNoise{
+      .speed_mps = 0.0007, .yaw_rate_radps = 0.0015, .heading_rad = 0.00006, .position_m = 0.017};
+  TrialData data;
+  data.logs = {drive(kTruths[1], 51, {.duration_s = 30.0, .rate_hz = 50.0}, kNoise)};
+  slow_positions(data.logs.front(), 50);
+  for (double& rate : data.logs.front()[LogChannel::kYawRate]->value) rate += kBias_radps;
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_FALSE(has_finding(*result, "model-inadequate"));
+  expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
+}
+
 TEST(Log, EqualSensorsOfSeveralLogsHaveOneNoiseModel) {
   const std::vector<DrivingLog> logs = logs_with_positions({0.05, 0.05, 0.05});
   for (const auto& [sensor, noise] : sensor_noise(fit_windows(logs, kWindow_s))) {

@@ -43,7 +43,7 @@ Compared compared(const testing::TestVehicle& vehicle, std::uint64_t seed) {
   options.one_set = true;
   options.evaluation_draws = 0;
   options.adds_observer = false;  // the independent simulator has no observer
-  // Without an observer, dry friction can hold the crawler outside the settling band.
+  // Without an observer, dry friction can hold a vehicle outside the settling band.
   options.allows_unsettled = true;
   const Result<Tuning> result = tune(model, options);
   if (!result) throw std::runtime_error(to_text(result.error()));

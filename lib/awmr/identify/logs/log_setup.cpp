@@ -178,16 +178,28 @@ bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& l
          why_no_back_emf(logs).empty();
 }
 
+/// Number of measured x positions per window.
+double mean_positions(const std::vector<FitWindow>& windows) {
+  double positions = 0.0;
+  for (const FitWindow& window : windows) {
+    positions +=
+        static_cast<double>(std::ranges::count(window.samples(), LogChannel::kX, &Sample::channel));
+  }
+  return windows.empty() ? 0.0 : positions / static_cast<double>(windows.size());
+}
+
 /// Length of the windows of all fits, s: kWindow_s, unless positions are so precise that the errors
 /// of a model grow to many times the noise within a few seconds. The search then has very many
 /// wrong optima, which short windows avoid; and precise positions also determine the initial states
-/// of short windows. Windows are short if the errors of a quick fit are above kFar times the noise
-/// (mean squares), and if short windows reduce them to a tenth.
+/// of short windows. Windows are short if three conditions hold: a short window has kFewest
+/// positions on average (with fewer, its own initial state would fit them exactly); the errors of a
+/// quick fit are above kFar times the noise (mean squares); short windows reduce them to a tenth.
 double window_length_s(const std::vector<DrivingLog>& logs, LogFitOptions fit) {
   constexpr double kFar = 1000.0;
   constexpr double kMuchLess = 0.1;
   constexpr double kShort_s = 0.6;
-  if (fit.free.empty() || !is_logged(logs, {LogChannel::kX, LogChannel::kY})) return kWindow_s;
+  constexpr double kFewest = 5.0;
+  if (fit.free.empty() || mean_positions(fit_windows(logs, kShort_s)) < kFewest) return kWindow_s;
   const double error = fit_roughly(logs, fit).relative_error;
   if (!(error > kFar)) return kWindow_s;
   fit.window_s = kShort_s;
