@@ -12,9 +12,9 @@ namespace awmr {
 
 /// Reads the files `run_SCENARIO_MODE_GAINS.csv`, sorted by name, as [{scenario, mode, gains,
 /// columns: {t_s: [...], ...}}]. Angles are in degrees. The rows are reduced to those that a chart
-/// needs (core/statistics/drawn_rows.h). Files for whose name `is_own` returns false are skipped. Errors:
-/// those of read_run() and `is_own`; the directory cannot be read; a file of this name is not a
-/// regular file.
+/// needs (core/statistics/drawn_rows.h). Files for whose name `is_own` returns false are skipped.
+/// Errors: those of read_run() and `is_own`; the directory cannot be read; a file of this name is
+/// not a regular file.
 Result<Json> read_runs(const std::filesystem::path& directory,
                        const std::function<Result<bool>(const std::string& name)>& is_own);
 

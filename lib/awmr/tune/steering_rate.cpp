@@ -52,8 +52,9 @@ double mean_of_correlated(const W& w, double rho) {
   return mean;
 }
 
-/// Standard normal distribution function. Do not replace it by that of core/statistics/distributions.h, which
-/// needs Boost.Math: the report's WebAssembly build does not have Boost.Math.
+/// Standard normal distribution function. Do not replace it by that of
+/// core/statistics/distributions.h, which needs Boost.Math: the report's WebAssembly build does not
+/// have Boost.Math.
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 double normal_density(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * pi<double>()); }
 

@@ -47,8 +47,8 @@ double step_initial_states(const std::vector<WindowSums>& sums, Eigen::Index coo
 /// Fits the initial states of all windows, with fixed fitted quantities. Gauss-Newton steps from
 /// the measured states suffice, because the motion is nearly linear in the states (except for a
 /// servo at its rate limit). The steps end when no state changes by more than 0.1 standard errors.
-/// Smaller steps hardly change the gradient of ln L, and they may alternate without end in a window in which
-/// the vehicle rests.
+/// Smaller steps hardly change the gradient of ln L, and they may alternate without end in a window
+/// in which the vehicle rests.
 SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> coordinates) {
   constexpr int kSteps = 10;
   // Cost of a step of 0.1 standard errors; a step of d gains d^2/2.

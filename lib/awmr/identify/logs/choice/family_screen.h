@@ -41,8 +41,8 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
                           const FamilyFit& first, const OpenAxes& open);
 
 /// Fits the families and the back-EMF of the rough fit `rough`, starting at its optimum, with its
-/// ramps and terms of single logs, but without its delay and lags. Then searches delays and command errors, and
-/// tests the candidate terms of `power_law`.
+/// ramps and terms of single logs, but without its delay and lags. Then searches delays and command
+/// errors, and tests the candidate terms of `power_law`.
 FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                  const FamilyFit& rough);
 

@@ -34,8 +34,8 @@ bool is_implausible(const FoundTerm& slip, const LogFit& fit) {
          slip.value > kLargestSlip && !has_channel(fit.noise, LogChannel::kX);
 }
 
-/// The terms of one kind, acting in all logs, that the fit identifies and that differ significantly from 0, and
-/// implausible slip in any case.
+/// The terms of one kind, acting in all logs, that the fit identifies and that differ significantly
+/// from 0, and implausible slip in any case.
 std::vector<FoundTerm> found_terms(const LogFit& fit, Kind kind) {
   std::vector<FoundTerm> found;
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
