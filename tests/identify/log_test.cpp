@@ -227,7 +227,7 @@ TEST(Log, FindsWhatDiffersBetweenLogs) {
   TrialData data;
   for (int i = 0; i < 3; ++i) {
     DrivingLog log =
-        drive(kTruths[1], 8 + i, {.duration_s = 15.0, .rate_hz = 50.0}, kPreciseSensors);
+        drive(kTruths[1], 8 + i, {.duration_s = 10.0, .rate_hz = 50.0}, kVeryPreciseSensors);
     log.number = i + 1;
     log.file = fmt::format("log_{}.csv", i + 1);
     for (const LogChannel c : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
@@ -601,7 +601,9 @@ TEST(BackEmf, IsFoundInLogsFromDifferentGround) {
       one->coulomb *= kHigher;
     }
   }
-  const auto result = identify(robot(), data, {}, {});
+  IdentifyOptions options;
+  options.yaw_family = {.family = Family::kPower, .requested = true};
+  const auto result = identify(robot(), data, options, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "back-emf"));
   EXPECT_TRUE(has_finding(*result, "resistance-differs"));
