@@ -721,9 +721,7 @@ void expect_finds_half_of_changes_between_rows(std::size_t rows_per_speed) {
   DrivingLog fast = smooth_commands(0.01, 30.0);
   hold_commands(fast, 131);
   DrivingLog log = measured_rows(fast, slow_servo, 2);
-  Measured& speed = *log[LogChannel::kSpeed];
-  for (std::size_t i = 0; i < speed.fresh.size(); ++i) speed.fresh[i] = i % rows_per_speed == 0;
-  speed.fresh_count = static_cast<int>(std::ranges::count(speed.fresh, true));
+  keep_every(rows_per_speed, *log[LogChannel::kSpeed]);
   TrialData data;
   data.logs = {std::move(log)};
   const auto result = identify(robot(), data, {}, {});

@@ -134,6 +134,12 @@ inline bool has_finding(const Identification& result, const std::string& code,
   });
 }
 
+/// Leaves out all readings of the channel but every n-th.
+inline void keep_every(std::size_t n, Measured& channel) {
+  for (std::size_t row = 0; row < channel.fresh.size(); ++row) channel.fresh[row] = row % n == 0;
+  channel.fresh_count = static_cast<int>(std::ranges::count(channel.fresh, true));
+}
+
 /// Reading of a channel in a row of the fast log.
 using Reading = std::function<double(LogChannel, std::size_t)>;
 

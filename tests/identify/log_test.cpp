@@ -706,18 +706,6 @@ TEST(Log, EstimatesTheNoiseOfEachLogIfTheSensorsDiffer) {
   EXPECT_TRUE(levels.contains({LogChannel::kSpeed}));
 }
 
-/// Keeps only every n-th reading of the positions.
-void slow_positions(DrivingLog& log, std::size_t n) {
-  for (const LogChannel channel : {LogChannel::kX, LogChannel::kY}) {
-    Measured& positions = *log[channel];
-    positions.fresh_count = 0;
-    for (std::size_t row = 0; row < positions.fresh.size(); ++row) {
-      positions.fresh[row] = row % n == 0;
-      positions.fresh_count += row % n == 0 ? 1 : 0;
-    }
-  }
-}
-
 // The sensors are precise, so the first quick fit is far from the log. Windows shorter than the time
 // between two positions would fit every position exactly.
 TEST(Log, PositionsOncePerSecondBesideAPreciseHeading) {
@@ -732,7 +720,7 @@ TEST(Log, PositionsOncePerSecondBesideAPreciseHeading) {
   const DrivePlan plan{.duration_s = 20.0, .rate_hz = 50.0, .drive = 74};
   TrialData data;
   data.logs = {simulate_log(car, robot(), plan, kNoise, random)};
-  slow_positions(data.logs.front(), 50);
+  for (const LogChannel c : {LogChannel::kX, LogChannel::kY}) keep_every(50, *data.logs.front()[c]);
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_FALSE(has_finding(*result, "model-inadequate"));

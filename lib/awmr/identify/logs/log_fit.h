@@ -74,6 +74,12 @@ struct LogFit {
     const auto i = place_of(quantities, what);
     return i ? std::optional(quantities[*i].value(coordinates[*i])) : std::nullopt;
   }
+  /// Removes quantity i and its coordinate. The other results keep their values.
+  void remove(std::size_t i) {
+    const auto place = static_cast<std::ptrdiff_t>(i);
+    quantities.erase(quantities.begin() + place);
+    coordinates.erase(coordinates.begin() + place);
+  }
   double error_of(std::size_t i) const {
     return std::sqrt(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
   }

@@ -66,8 +66,7 @@ std::vector<double> series_of(const LogReportInput& input, const std::vector<Win
   return series;
 }
 
-/// Tests the residuals of each sensor for whiteness and normality. Test names end in the
-/// sensor.
+/// Tests the residuals of each sensor for whiteness and normality. Test names end in the sensor.
 std::vector<Diagnostic> residual_tests(const LogReportInput& input) {
   constexpr int kLags = 10;
   const std::vector<WindowErrors> errors = errors_at(input.problem, input.solved.point);

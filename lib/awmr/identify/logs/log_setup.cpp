@@ -199,7 +199,8 @@ double window_length_s(const std::vector<DrivingLog>& logs, LogFitOptions fit) {
   constexpr double kMuchLess = 0.1;
   constexpr double kShort_s = 0.6;
   constexpr double kFewest = 5.0;
-  if (fit.free.empty() || mean_positions(fit_windows(logs, kShort_s)) < kFewest) return kWindow_s;
+  if (fit.free.empty() || !is_logged(logs, {LogChannel::kX, LogChannel::kY})) return kWindow_s;
+  if (mean_positions(fit_windows(logs, kShort_s)) < kFewest) return kWindow_s;
   const double error = fit_roughly(logs, fit).relative_error;
   if (!(error > kFar)) return kWindow_s;
   fit.window_s = kShort_s;

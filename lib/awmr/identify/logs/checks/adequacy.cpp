@@ -27,12 +27,6 @@ std::optional<std::string> try_alternatives(BestFamily alternatives, const Famil
                      aic_decrease_text(aic_lead(alternatives.best.fit, chosen.fit)));
 }
 
-bool has_model_error(const NoiseLevels& noise, LogChannel channel) {
-  return std::ranges::any_of(noise, [channel](const auto& level) {
-    return level.first.channel == channel && level.second.of_the_model();
-  });
-}
-
 /// True for a channel whose large drift makes all intervals invalid: speed; yaw rate; position, if
 /// there is no speed; heading, if there is no yaw rate or if the yaw rate shows a model error too.
 /// Other drifts of position or heading do not count: the GNSS receiver or the compass can cause
@@ -44,7 +38,7 @@ bool is_evaluated(const NoiseLevels& noise, LogChannel channel) {
       return true;
     case LogChannel::kHeading:
       return !has_channel(noise, LogChannel::kYawRate) ||
-             has_model_error(noise, LogChannel::kYawRate);
+             any_sensor(noise, LogChannel::kYawRate, &ChannelNoise::of_the_model);
     case LogChannel::kX:
     case LogChannel::kY:
       return !has_channel(noise, LogChannel::kSpeed);

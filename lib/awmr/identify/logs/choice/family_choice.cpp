@@ -51,9 +51,7 @@ bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_ter
   constexpr double kWorthATry = 4.0;  // smallest predicted decrease of -2 ln L that is worth a fit
   if (!fit.usable || largest_gain_of_axis(fit, candidate_terms, of_yaw) > kWorthATry) return true;
   const auto drifts = [&](LogChannel channel) {
-    return std::ranges::any_of(fit.noise, [channel](const auto& level) {
-      return level.first.channel == channel && level.second.has_slow_drift();
-    });
+    return any_sensor(fit.noise, channel, &ChannelNoise::has_slow_drift);
   };
   return of_yaw ? drifts(LogChannel::kYawRate) || drifts(LogChannel::kHeading)
                 : drifts(LogChannel::kSpeed) || drifts(LogChannel::kX);

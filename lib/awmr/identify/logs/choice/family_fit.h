@@ -20,8 +20,8 @@ struct FamilyFit {
   LogFit fit;
 };
 
-/// Sum of n ln(sum e^2/n) over all sensors, with the n errors e of a sensor in all of these
-/// fits, and the number of errors of all sensors.
+/// Sum of n ln(sum e^2/n) over all sensors, with the n errors e of a sensor in all of these fits,
+/// and the number of errors of all sensors.
 struct ErrorSize {
   double size = 0.0;
   double count = 0.0;

@@ -169,8 +169,8 @@ FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power
     });
   };
   std::erase_if(options.terms, [&](const FreeTerm& term) {
-    const bool stays = term.quantity.is_ramp() || term.quantity.log != 0;
-    return !stays || is_requested(term);
+    const bool is_kept = term.quantity.is_ramp() || term.quantity.log != 0;
+    return !is_kept || is_requested(term);
   });
   append(options.terms, power_law.terms);
   return fit_with(logs, std::move(options), rough.surge, rough.yaw);

@@ -120,9 +120,7 @@ LogFit of_single_log(LogFit fit, const DrivingLog& log) {
     const FreeQuantity term = fit.quantities[i];
     if (term.log == 0) continue;
     const double value = fit.coordinates[i];
-    const auto place = static_cast<std::ptrdiff_t>(i);
-    fit.quantities.erase(fit.quantities.begin() + place);
-    fit.coordinates.erase(fit.coordinates.begin() + place);
+    fit.remove(i);
     if (!term.acts_in(log)) continue;
     for (std::size_t k = 0; k < fit.quantities.size(); ++k) {
       const FreeQuantity& q = fit.quantities[k];

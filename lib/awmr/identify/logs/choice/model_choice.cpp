@@ -59,13 +59,10 @@ bool has_log_terms(const LogFit& fit) {
 /// family or back-EMF. Keeps the terms of single logs, a delay of the commands and biases. Only
 /// quantities and coordinates are right.
 FamilyFit without_other_terms(FamilyFit fit) {
-  std::vector<FreeQuantity>& quantities = fit.fit.quantities;
-  for (std::size_t i = quantities.size(); i-- > 0;) {
-    const FreeQuantity& q = quantities[i];
+  for (std::size_t i = fit.fit.quantities.size(); i-- > 0;) {
+    const FreeQuantity& q = fit.fit.quantities[i];
     if (q.log != 0 || q.is(Kind::kParameter) || q.is(Kind::kDelay) || q.is(Kind::kBias)) continue;
-    const auto place = static_cast<std::ptrdiff_t>(i);
-    quantities.erase(quantities.begin() + place);
-    fit.fit.coordinates.erase(fit.fit.coordinates.begin() + place);
+    fit.fit.remove(i);
   }
   return fit;
 }
@@ -97,6 +94,12 @@ LogFitOptions with_optional_coulomb(LogFitOptions power_law, const IdentifyOptio
   return power_law;
 }
 
+/// refine() of a rough fit by likely_families(), with Coulomb friction as a candidate.
+FamilyFit refined(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                  const IdentifyOptions& options, const FamilyFit& rough) {
+  return refine(logs, with_optional_coulomb(power_law, options, rough.surge, rough.yaw), rough);
+}
+
 FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            const IdentifyOptions& options) {
   show_step(options, "fitting the logs");
@@ -109,8 +112,7 @@ FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOpti
   first.give_up_above = kErrorOfModel;
   const FamilyFit fit = fit_family(logs, first, surge, yaw);
   if (!fit.fit.gave_up) return fit;
-  const FamilyFit likely = likely_families(logs, power_law, fit, open);
-  return refine(logs, with_optional_coulomb(power_law, options, likely.surge, likely.yaw), likely);
+  return refined(logs, power_law, options, likely_families(logs, power_law, fit, open));
 }
 
 std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs) {
@@ -169,7 +171,7 @@ FamilyFit screened_again(const std::vector<DrivingLog>& logs, const LogFitOption
   if (!is_wrong || !open.any() || has_back_emf || !has_log_terms(first.fit)) return first;
   const FamilyFit again = likely_families(logs, power_law, without_other_terms(first), open);
   if (has_same_model(again, first)) return first;
-  return refine(logs, with_optional_coulomb(power_law, options, again.surge, again.yaw), again);
+  return refined(logs, power_law, options, again);
 }
 
 struct Chosen {

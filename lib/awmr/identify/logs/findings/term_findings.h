@@ -55,8 +55,7 @@ std::vector<Finding> log_findings(const LogFit& fit, const std::vector<DrivingLo
 /// Returns one finding for each significant term that the fit identifies
 /// (LogFit::is_significant()). A term is a delay, a lag, an error of commands or sensors, or a
 /// force of extra_forces.h (force_findings()). `withdrawn`: true if the fit has no valid intervals;
-/// the messages then say so. `logs`: the fitted logs; most findings name
-/// the file of the first.
+/// the messages then say so. `logs`: the fitted logs; most findings name the file of the first.
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
                                                  const std::vector<DrivingLog>& logs);
 

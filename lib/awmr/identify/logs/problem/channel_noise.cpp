@@ -364,6 +364,12 @@ bool has_channel(const NoiseLevels& levels, LogChannel channel) {
   return first != levels.end() && first->first.channel == channel;
 }
 
+bool any_sensor(const NoiseLevels& levels, LogChannel channel, bool (ChannelNoise::*test)() const) {
+  return std::ranges::any_of(levels, [&](const auto& level) {
+    return level.first.channel == channel && (level.second.*test)();
+  });
+}
+
 const NoiseLevels::value_type& sensor_in(const NoiseLevels& levels, LogChannel channel, int log) {
   const auto own = levels.find({channel, log});
   return own != levels.end() ? *own : *levels.lower_bound({channel});

@@ -68,8 +68,8 @@ struct ChannelNoise {
   bool has_slow_drift() const { return drift_std > 0.25 * sensor_std && correlation_s > 0.2; }
 };
 
-/// Sensor of a channel, in all logs or in a single log. Logs of one vehicle can
-/// have different sensors, for example GPS in one log and motion capture in another.
+/// Sensor of a channel, in all logs or in a single log. Logs of one vehicle can have different
+/// sensors, for example GPS in one log and motion capture in another.
 struct LogSensor {
   LogChannel channel;
   int log = 0;  ///< DrivingLog::number; 0: the noise is the same in all logs
@@ -86,6 +86,9 @@ std::string describe(const LogSensor& sensor);
 std::set<LogChannel> channels_of(const NoiseLevels& levels);
 
 bool has_channel(const NoiseLevels& levels, LogChannel channel);
+
+/// True if `test` is true for the noise of a sensor of this channel.
+bool any_sensor(const NoiseLevels& levels, LogChannel channel, bool (ChannelNoise::*test)() const);
 
 /// Sensor of a channel in the log with this number: that of the log, else that of all logs, else
 /// that of the first log with one. Precondition: has_channel().

@@ -101,8 +101,8 @@ bool is_long(const LogProblem& problem);
 /// Returns `count` evenly spaced indices out of `size`, or all indices if there are fewer.
 std::vector<std::size_t> spread(std::size_t size, std::size_t count);
 
-/// Returns the problem with only these windows (indices). Leaves out sensors without
-/// samples in them.
+/// Returns the problem with only these windows (indices). Leaves out sensors without samples in
+/// them.
 LogProblem with_windows(const LogProblem& problem, const std::vector<std::size_t>& windows);
 
 /// Returns the point with only the initial states of these windows (indices). `problem`: problem to
