@@ -384,7 +384,7 @@ TEST(Families, TestNoTermsThatTheyHave) {
 class InexactPositions : public ::testing::TestWithParam<bool> {};
 
 TEST_P(InexactPositions, FamiliesAreCompared) {
-  DrivingLog log = drive(kTruths[1], 4, {.duration_s = 6.0});
+  DrivingLog log = drive(kTruths[1], 4, {.duration_s = 3.0});
   for (const LogChannel channel :
        {LogChannel::kSpeed, LogChannel::kYawRate, LogChannel::kHeading, LogChannel::kSway}) {
     log[channel].reset();

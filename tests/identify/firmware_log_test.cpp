@@ -182,8 +182,8 @@ class RampedLogs : public FitOfInstance {};
 INSTANTIATE_TEST_SUITE_P(Short, RampedLogs, ::testing::Values(false));
 INSTANTIATE_TEST_SUITE_P(Long, RampedLogs, ::testing::Values(true));
 
-DrivingLog ramped_log(double rise, double fall) {
-  const DrivingLog fast = fast_drive(18.0);
+DrivingLog ramped_log(double duration_s, double rise, double fall) {
+  const DrivingLog fast = fast_drive(duration_s);
   DrivingLog motors = fast;
   motors.force_left = ramped_force(fast.force_left, rise, fall);
   motors.force_right = ramped_force(fast.force_right, rise, fall);
@@ -192,7 +192,7 @@ DrivingLog ramped_log(double rise, double fall) {
 
 TEST_P(RampedLogs, SoftStartIsEstimated) {
   constexpr double kRise_per_s = 1.0;
-  const Identification result = fit_of_firmware(ramped_log(kRise_per_s, 1e9), options());
+  const Identification result = fit_of_firmware(ramped_log(12.5, kRise_per_s, 1e9), options());
   EXPECT_TRUE(has_finding(result, "force-ramp", "rises"));
   EXPECT_FALSE(has_finding(result, "force-ramp", "falls"));
   EXPECT_FALSE(has_finding(result, "actuator-lag"));
@@ -205,7 +205,7 @@ TEST_P(RampedLogs, SoftStartIsEstimated) {
 TEST_P(RampedLogs, SlewRateLimitOfRiseAndFallIsEstimated) {
   constexpr double kRise_per_s = 1.2;
   constexpr double kFall_per_s = 2.0;
-  const Identification result = fit_of_firmware(ramped_log(kRise_per_s, kFall_per_s), options());
+  const Identification result = fit_of_firmware(ramped_log(18.0, kRise_per_s, kFall_per_s), options());
   for (const auto& [name, rate] :
        {std::pair("motor.rise_time_s", kRise_per_s), std::pair("motor.fall_time_s", kFall_per_s)}) {
     const auto time = estimated(result, name);

@@ -227,7 +227,7 @@ TEST(Log, FindsWhatDiffersBetweenLogs) {
   TrialData data;
   for (int i = 0; i < 3; ++i) {
     DrivingLog log =
-        drive(kTruths[1], 8 + i, {.duration_s = 10.0, .rate_hz = 50.0}, kVeryPreciseSensors);
+        drive(kTruths[1], 8 + i, {.duration_s = 8.0, .rate_hz = 50.0}, kVeryPreciseSensors);
     log.number = i + 1;
     log.file = fmt::format("log_{}.csv", i + 1);
     for (const LogChannel c : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
@@ -596,6 +596,9 @@ TEST(BackEmf, IsFoundInLogsFromDifferentGround) {
     const DrivePlan plan{.duration_s = 16.0, .rate_hz = 25.0, .drive = 70U + number};
     data.logs.push_back(simulate_log(geared, robot(), plan, kMostPreciseSensors, random));
     data.logs.back().number = number;
+    for (const LogChannel c : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
+      data.logs.back()[c].reset();
+    }
     for (Resistance<double>* one : {&geared.surge, &geared.yaw}) {
       one->alpha *= kHigher;
       one->coulomb *= kHigher;

@@ -132,11 +132,11 @@ class TermTrials {
   /// effect, because the drift of the noise model had absorbed this effect before.
   std::optional<NoiseIteration> likeliest() {
     for (const CandidateTerm& candidate : terms_) {
-      const bool is_weak = candidate.significance < kComparable * terms_.front().significance;
-      if (lowest_.best() && is_weak) break;
+      if (lowest_.best() && is_weak(candidate)) break;
       consider(candidate);
       if (is_clear_friction(candidate)) return std::move(lowest_.best());
     }
+    consider_differences_together();
     consider_filters();
     if (delay_s_ > 0.0) consider_filters_of_both();
     consider_smoothing();
@@ -181,6 +181,47 @@ class TermTrials {
     if (found_s > 0.0 && is_sensor && is_often_filtered(more.channel) && !is_averaged) {
       filters_.emplace_back(more.channel, found_s);
     }
+  }
+
+  /// True if the candidate is clearly less significant than the first one (kComparable).
+  bool is_weak(const CandidateTerm& candidate) const {
+    return candidate.significance < kComparable * terms_.front().significance;
+  }
+
+  /// Initial guess of a term that is tried together with a candidate: the value that its own score
+  /// test predicts, or 0 if it is no candidate.
+  double value_of(const FreeQuantity& term) const {
+    const auto found = std::ranges::find_if(
+        terms_, [&](const CandidateTerm& one) { return one.quantity.name() == term.name(); });
+    return found == terms_.end() ? 0.0 : found->value;
+  }
+
+  /// Tries several kinds of terms of single logs together if they are candidates, because logs of
+  /// different days often differ in several ways (battery, clock, bias of the gyroscope). A single
+  /// one then may not lower AIC, as the errors due to the others remain. Scales of forces and of
+  /// resistances have similar effects, so only the more significant one of the two is tried.
+  void consider_differences_together() {
+    std::vector<FreeTerm> together;
+    const auto is_in_it = [&](Kind kind) {
+      return std::ranges::any_of(together, [&](const auto& t) { return t.quantity.kind == kind; });
+    };
+    int kinds = 0;
+    for (const CandidateTerm& candidate : terms_) {
+      const Kind kind = candidate.quantity.kind;
+      if (is_weak(candidate)) break;
+      if (candidate.quantity.log == 0 || is_in_it(kind)) continue;
+      if (kind == Kind::kForceScale && is_in_it(Kind::kResistanceScale)) continue;
+      if (kind == Kind::kResistanceScale && is_in_it(Kind::kForceScale)) continue;
+      for (FreeTerm& term : with_companion(settled_.problem, candidate)) {
+        term.begin = value_of(term.quantity);
+        together.push_back(std::move(term));
+      }
+      ++kinds;
+    }
+    if (kinds < 2) return;
+    NoiseIteration fit = trial_from_both(together);
+    if (terms_.front().quantity.log != 0 && is_beyond_doubt(terms_.front())) strongest_ = fit;
+    lowest_.consider(std::move(fit));
   }
 
   /// True if the candidate is the most significant one, and is Coulomb friction whose trial lowers
