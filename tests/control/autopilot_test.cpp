@@ -338,6 +338,20 @@ TEST_F(AutopilotLeads, WithForcesThatMakeUpForADeadZone) {
       << "the check sum must cover the RestBlock";
 }
 
+TEST(MadeUpSpeed, IsLimitedToTheCommandAndTheBoundaryLayer) {
+  LawConstants<double> laws{};
+  laws.speed_slope = 2.0;
+  laws.speed_limit = 0.5;  // boundary layer of 0.25 m/s
+  EXPECT_EQ(made_up_speed(laws, 0.5, 1.0), 0.5);
+  EXPECT_EQ(made_up_speed(laws, 1.2, 1.0), 1.2);
+  EXPECT_EQ(made_up_speed(laws, 5.0, 1.0), 1.25);
+  EXPECT_EQ(made_up_speed(laws, 5.0, 0.0), 0.25);
+  EXPECT_EQ(made_up_speed(laws, 5.0, -1.0), 0.0);
+  EXPECT_EQ(made_up_speed(laws, -0.5, -1.0), -0.5);
+  EXPECT_EQ(made_up_speed(laws, -5.0, -1.0), -1.25);
+  EXPECT_EQ(made_up_speed(laws, -5.0, 1.0), 0.0);
+}
+
 TEST_F(AutopilotLeads, WithDrivesThatMakeUpForBackEmfAndForcesThatItLeaves) {
   RestBlock rest{};
   rest.dead_zone = 0.1F;
@@ -350,11 +364,13 @@ TEST_F(AutopilotLeads, WithDrivesThatMakeUpForBackEmfAndForcesThatItLeaves) {
       in_.measured.u_mps = u_mps;
       in_.measured.r_radps = r_radps;
       const AutopilotOutput out = step_at({0.0F, 0.0F});
+      const LawConstants<float>& laws = block_.constants.laws;
+      const float emf_mps = made_up_speed(laws, u_mps, in_.reference.speed_mps);
       Allocation<float> made{};
       allocate(kFourWheelSteering, kCombinedSplit, out.tau_speed, out.tau_turn_m,
-               at_speed(at_rest, 0.2F, u_mps), made);
+               at_speed(at_rest, 0.2F, emf_mps), made);
       const SideForces<float> command =
-          motor_commands(made.force, at_rest, 0.1F, 0.2F, u_mps, r_radps);
+          motor_commands(made.force, at_rest, 0.1F, 0.2F, emf_mps, r_radps);
       EXPECT_EQ(out.command.force.left, command.left) << u_mps << " " << r_radps;
       EXPECT_EQ(out.command.force.right, command.right) << u_mps << " " << r_radps;
       EXPECT_EQ(out.command.steering_rad, made.steering_rad) << u_mps << " " << r_radps;

@@ -205,7 +205,8 @@ TEST_P(RampedLogs, SoftStartIsEstimated) {
 TEST_P(RampedLogs, SlewRateLimitOfRiseAndFallIsEstimated) {
   constexpr double kRise_per_s = 1.2;
   constexpr double kFall_per_s = 2.0;
-  const Identification result = fit_of_firmware(ramped_log(18.0, kRise_per_s, kFall_per_s), options());
+  const Identification result =
+      fit_of_firmware(ramped_log(18.0, kRise_per_s, kFall_per_s), options());
   for (const auto& [name, rate] :
        {std::pair("motor.rise_time_s", kRise_per_s), std::pair("motor.fall_time_s", kFall_per_s)}) {
     const auto time = estimated(result, name);

@@ -111,6 +111,19 @@ TEST(BackEmf, IsZeroWithTheMotorsOff) {
   EXPECT_EQ(end_of(plant), end_of(ideal));
 }
 
+/// The compensation of back-EMF would otherwise drive such a vehicle at full force.
+TEST(BackEmf, IsNotMadeUpForASpeedFarAboveTheCommand) {
+  constexpr double kCommanded_mps = 0.5;
+  const Plant<double> plant = geared(0.3, {.alpha = 1.3157, .beta = 0.8841});
+  const Controller<double> controller = make_controller(plant, paper_vehicle(), kPaperGains);
+  Scenario scenario{"wrong speed", 6.0, {}, kCommanded_mps, HeadingSteps{{{0.0, 0.0}}}};
+  scenario.sensors.emplace().speed.bias = 4.0;
+  const awmr::Run run =
+      simulate(plant, controller, scenario, YawMode::kDifferential, {.sample_time_s = 0.01});
+  const double fastest_mps = kCommanded_mps + kPaperGains.speed.epsilon;
+  for (const RunRow& row : run.rows) EXPECT_LE(row.state.u_mps, fastest_mps) << row.t_s;
+}
+
 TEST(FrontWheelDrive, HoldsSpeedAndHeadingInEveryModeWithAndWithoutBackEmf) {
   for (const double back_emf : {0.0, 0.25}) {
     Plant<double> plant = geared(back_emf, {.alpha = 1.3157, .beta = 0.8841});

@@ -101,11 +101,12 @@ AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in,
   out.tau_speed = speed_law(a.controller, measured, ref);
   out.tau_turn_m = heading_law(a.controller, measured, ref);
   const AllocationConstants<float>& at_rest = a.controller.constants.allocation;
-  const AllocationConstants<float>& limits = limits_at(motors, at_rest, measured.u_mps);
+  const float emf_mps = back_emf_speed(motors, a.controller, measured, ref);
+  const AllocationConstants<float>& limits = limits_at(motors, at_rest, emf_mps);
   allocate_observed(part_of<typename P::Observation>(a), a.controller, measured,
                     {kFourWheelSteering, yaw_split<float>(static_cast<YawMode>(in.mode), P::kSplit),
                      limits, out.tau_speed, out.tau_turn_m, out.command});
-  make_up_back_emf(motors, at_rest, measured, out.command.force);
+  make_up_back_emf(motors, at_rest, emf_mps, measured.r_radps, out.command.force);
 }
 
 /// Sets the safe command (motors off, wheels straight). Resets obstacle avoidance, heading shaping

@@ -5,11 +5,13 @@
 #include <stdint.h>
 
 #include "awmr/control/allocation_limits.h"
+#include "awmr/control/controller.h"
 #include "awmr/control/flash.h"
 #include "awmr/control/measurement.h"
 #include "awmr/control/motor_command.h"
 #include "awmr/control/optional_part.h"
 #include "awmr/control/parameters_block.h"
+#include "awmr/control/speed_law.h"
 
 namespace awmr {
 
@@ -49,6 +51,20 @@ void use_friction_width(MotorCurve& part, uint8_t mode, G& yaw) {
   if (part.rest != 0) set_friction_width(part.rest, mode, yaw);
 }
 
+/// Returns the speed whose back-EMF the motor commands make up, m/s: made_up_speed(), or the
+/// measured speed if MotorCurve is not compiled in.
+template <class G>
+AWMR_INLINE float back_emf_speed(const Disabled<MotorCurve>&, const PreparedController<float, G>&,
+                                 const Measurement<float>& m, const Reference<float>&) {
+  return m.u_mps;
+}
+template <class G>
+AWMR_INLINE float back_emf_speed(const MotorCurve& part, const PreparedController<float, G>& c,
+                                 const Measurement<float>& m, const Reference<float>& ref) {
+  if (!(part.back_emf_s_per_m > 0.0F)) return m.u_mps;
+  return made_up_speed(c.constants.laws, m.u_mps, ref.speed_mps);
+}
+
 /// Returns the allocation limits at the speed u, m/s: the limits at rest, `c`, reduced by back-EMF
 /// if MotorCurve is compiled in.
 AWMR_INLINE const AllocationConstants<float>& limits_at(const Disabled<MotorCurve>&,
@@ -65,10 +81,10 @@ inline AllocationConstants<float> limits_at(const MotorCurve& part,
 /// Replaces each force by the motor drive that makes this force in spite of the back-EMF. No-op if
 /// MotorCurve is not compiled in.
 AWMR_INLINE void make_up_back_emf(const Disabled<MotorCurve>&, const AllocationConstants<float>&,
-                                  const Measurement<float>&, SideForces<float>&) {}
+                                  float /*u_mps*/, float /*r_radps*/, SideForces<float>&) {}
 inline void make_up_back_emf(const MotorCurve& part, const AllocationConstants<float>& c,
-                             const Measurement<float>& m, SideForces<float>& force) {
-  force = motor_drives(force, c, part.back_emf_s_per_m, m.u_mps, m.r_radps);
+                             float u_mps, float r_radps, SideForces<float>& force) {
+  force = motor_drives(force, c, part.back_emf_s_per_m, u_mps, r_radps);
 }
 
 }  // namespace awmr

@@ -18,6 +18,32 @@ AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& eps
                 T(-math::larger(T(epsilon_mps - u_d_mps), T(0.0))));
 }
 
+/// Returns u, but fastest_fed_forward() if the vehicle is faster, m/s. `error_mps`: e_u = u_d - u;
+/// `wanted`: correction m' mu_s e_u/eps_s before saturation; `limit`: its largest magnitude, m'
+/// mu_s; `slope`: m' mu_s/eps_s.
+template <class T>
+AWMR_INLINE T at_most_fastest(const T& u_mps, const T& u_d_mps, const T& error_mps, const T& wanted,
+                              const T& limit, const T& slope) {
+  using math::any;
+  using math::select;
+  T w_mps = u_mps;
+  const Mask<T> too_fast = math::is_opposite(u_mps, error_mps) && math::is_beyond(wanted, limit);
+  if (any(too_fast)) {
+    w_mps = select(too_fast, fastest_fed_forward(u_mps, u_d_mps, T(limit / slope)), w_mps);
+  }
+  return w_mps;
+}
+
+/// Returns the speed whose back-EMF the motor commands make up, m/s: u, but at most
+/// fastest_fed_forward(). A speed sensor that reads too much would otherwise increase the motor
+/// commands up to full force, and the motors of a vehicle that is too fast would not brake it.
+template <class T>
+AWMR_INLINE T made_up_speed(const LawConstants<T>& k, const T& u_mps, const T& u_d_mps) {
+  const T error = u_d_mps - u_mps;
+  return at_most_fastest(u_mps, u_d_mps, error, T(k.speed_slope * error), k.speed_limit,
+                         k.speed_slope);
+}
+
 /// Returns the speed w whose resistance g1(w) the speed law feeds forward, m/s, at the speed u:
 ///   w = 0                     at u_d = 0
 ///   w = max(0, u_d + eps_s)   if the vehicle moves forward and faster than that
@@ -27,18 +53,13 @@ AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& eps
 ///
 /// Why the second and third lines: without them, a vehicle that rolls down a slope faster than u_d
 /// would get tau_speed = g1(u) - m' mu_s. At speeds with g1(u) > m' mu_s, this force accelerates
-/// the vehicle further. `wanted`: correction m' mu_s e_u/eps_s before saturation; `limit`: its
-/// largest magnitude, m' mu_s; `slope`: m' mu_s/eps_s.
+/// the vehicle further. The arguments are those of at_most_fastest().
 template <class T>
 AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T& error_mps,
                                 const T& wanted, const T& limit, const T& slope) {
   using math::any;
   using math::select;
-  T w_mps = u_mps;
-  const Mask<T> too_fast = math::is_opposite(u_mps, error_mps) && math::is_beyond(wanted, limit);
-  if (any(too_fast)) {
-    w_mps = select(too_fast, fastest_fed_forward(u_mps, ref.speed_mps, T(limit / slope)), w_mps);
-  }
+  const T w_mps = at_most_fastest(u_mps, ref.speed_mps, error_mps, wanted, limit, slope);
   const Mask<T> stands = math::is_zero(ref.speed_mps);
   return any(stands) ? select(stands, T(0.0), w_mps) : w_mps;
 }

@@ -72,6 +72,17 @@ RunControllerState<T> start_controller(const ControllerSetup& setup, const RunCo
           {T(0.0), T(0.0)}};
 }
 
+/// Returns the speed whose back-EMF the motor commands make up, m/s: made_up_speed(), or the
+/// measured speed if no speed is commanded.
+template <class T>
+T back_emf_speed(const ControllerSetup& setup, const RunController<T>& c, const Measurement<T>& m,
+                 const Reference<T>& ref) {
+  using math::any;
+  const bool has_speed = !setup.is_open_loop && !setup.holds_tau_speed;
+  if (!has_speed || !any(c.back_emf_s_per_m > T(0.0))) return m.u_mps;
+  return made_up_speed(c.laws.constants.laws, m.u_mps, ref.speed_mps);
+}
+
 /// Computes the commands of one sample. Call it once per sample, in order.
 template <class T>
 RunCommand<T> command_sample(const ControllerSetup& setup, const RunController<T>& c,
@@ -80,8 +91,9 @@ RunCommand<T> command_sample(const ControllerSetup& setup, const RunController<T
   const T zero = T(0.0);
   const Measurement<T> m = setup.is_open_loop ? Measurement<T>{zero, zero, zero, zero} : measured;
   const AllocationConstants<T>& at_rest = c.laws.constants.allocation;
+  const T emf_mps = back_emf_speed(setup, c, m, ref);
   const AllocationConstants<T> limits =
-      at_speed(at_rest, c.back_emf_s_per_m, m.u_mps, setup.geometry.driven_wheels());
+      at_speed(at_rest, c.back_emf_s_per_m, emf_mps, setup.geometry.driven_wheels());
   RunCommand<T> out{c.tau_speed, c.tau_turn_m, {zero, zero}, zero};
   if (!setup.is_open_loop) {
     if (!setup.holds_tau_speed) out.tau_speed = speed_law(c.laws, m, ref);
@@ -100,7 +112,7 @@ RunCommand<T> command_sample(const ControllerSetup& setup, const RunController<T
     integrate_error(out.tau_turn_m, a, allocated_forces(setup.geometry, limits, a), sample_time_s,
                     state.lqi);
   }
-  out.force = motor_commands(a.force, at_rest, c.dead_zone, c.back_emf_s_per_m, m.u_mps, m.r_radps);
+  out.force = motor_commands(a.force, at_rest, c.dead_zone, c.back_emf_s_per_m, emf_mps, m.r_radps);
   out.steering_rad = a.steering_rad;
   return out;
 }
