@@ -318,9 +318,9 @@ Finding assumed_back_emf(const std::string& file) {
           "mass_norm assumes that at a constant command the force of a motor does not fall with "
           "the speed. For voltage-driven motors that coast at a command of 0, mass_norm is too "
           "large by the factor 1 + n k_e u/g1 (n: number of driven wheels, u: speed, g1: surge "
-          "resistance divided by F_max). Set motor.back_emf_s_per_m (k_e) in the vehicle file (0 "
-          "for motors with a constant force), or identify it from a log with driven and coasting "
-          "sections"};
+          "resistance divided by F_max). If the force does not fall, set motor.back_emf_s_per_m to "
+          "0 in the vehicle file; if it does, identify the vehicle from a log with driven and "
+          "coasting sections, without surge and turning tables"};
 }
 
 /// Adds the findings about m'. Adds `fragile-mass` only if m' comes from stop times alone.

@@ -176,8 +176,10 @@ function identificationSection(data) {
   }
   if (!charts.childElementCount) charts.remove();
   add(box, "h3", "Parameters");
-  const parts = ["surge", "yaw", "sway", "wheel", "mass_norm", "inertia_norm", "steering"];
-  table(box, estimateHead, estimateRows(parts.flatMap((name) => leaves(model[name], name))));
+  const parts = ["surge", "yaw", "sway", "wheel", "motor", "mass_norm", "inertia_norm", "steering"];
+  const rows = parts.flatMap((name) => leaves(model[name], name))
+    .filter(([, estimate]) => estimate.method !== "no steering");
+  table(box, estimateHead, estimateRows(rows));
   if (model.si) {
     const si = folded(box, "The same in SI units");
     small(si, "The values above, multiplied by F_max = m/m', the largest force of a wheel.");

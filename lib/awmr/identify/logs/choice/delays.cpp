@@ -136,7 +136,7 @@ class TermTrials {
       consider(candidate);
       if (is_clear_friction(candidate)) return std::move(lowest_.best());
     }
-    consider_differences_together();
+    if (!lowest_.best()) consider_differences_together();
     consider_filters();
     if (delay_s_ > 0.0) consider_filters_of_both();
     consider_smoothing();
@@ -196,9 +196,9 @@ class TermTrials {
     return found == terms_.end() ? 0.0 : found->value;
   }
 
-  /// Tries several kinds of terms of single logs together if they are candidates, because logs of
-  /// different days often differ in several ways (battery, clock, bias of the gyroscope). A single
-  /// one then may not lower AIC, as the errors due to the others remain. Scales of forces and of
+  /// Tries several kinds of terms of single logs together if they are candidates. Logs of different
+  /// days often differ in several ways (battery, clock, bias of the gyroscope), and then a single
+  /// one may not lower AIC, because the errors due to the others remain. Scales of forces and of
   /// resistances have similar effects, so only the more significant one of the two is tried.
   void consider_differences_together() {
     std::vector<FreeTerm> together;
