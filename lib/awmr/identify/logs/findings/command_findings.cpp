@@ -89,6 +89,15 @@ bool is_no_ramp(const FoundTerm& term) {
   return term.quantity.is_ramp() && term.value < kShortestRamp_s;
 }
 
+/// True for an exponent of the forces or a slip ratio that is too small to be reported
+/// (kMinReported).
+bool is_too_small(const FoundTerm& term) {
+  const FreeQuantity& q = term.quantity;
+  const bool is_share =
+      q.kind == Kind::kForceExponent || (q.kind == Kind::kWheelSlip && q.is_ratio);
+  return is_share && std::abs(term.value) < kMinReported;
+}
+
 /// Reports a motor lag, a dead time or late time stamps of the commands if the fit has found them.
 /// Otherwise, if at least two channels are measured and all of them have a latency, reports that
 /// actuators or commands are the likely common cause. Times that changes between rows explain are
@@ -486,7 +495,7 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
   std::vector<Finding> findings;
   for (const TermFinding& one : kTermFindings) {
     for (const FoundTerm& term : found_terms(fit, one.kind)) {
-      if (is_within_rows(term, fit) || is_no_ramp(term)) continue;
+      if (is_within_rows(term, fit) || is_no_ramp(term) || is_too_small(term)) continue;
       const bool is_convex = one.kind == Kind::kForceExponent && term.value > 0.0;  // p > 1
       findings.push_back(
           {file, 0, Severity::kWarning, is_convex ? "force-curve" : one.code, one.text(term, fit)});

@@ -90,7 +90,7 @@ std::vector<Finding> side_pull_findings(const LogFit& fit, const std::string& fi
 
 std::vector<Finding> axle_offset_findings(const LogFit& fit, const std::string& file) {
   const auto offset = significant(fit, ExtraForce::kAxleOffset);
-  if (!offset) return {};
+  if (!offset || std::abs(offset->value) < kMinReported) return {};
   return {{file, 0, Severity::kWarning, "axle-offset",
            fmt::format("the vehicle turns like one whose centre of gravity lies {:.3f} +- {:.3f} m "
                        "{} the axle whose wheels do not slide sideways, so driving {} resists "

@@ -37,8 +37,8 @@ std::optional<Identified> significant(const LogFit& fit, What what) {
   return found && is_significant(*found) ? found : std::nullopt;
 }
 
-/// A difference of forces or of resistance below this share is not reported: the warning would be
-/// about a smaller effect than any correction.
+/// A smaller effect is not reported, because no correction of the vehicle is as exact: a difference
+/// of forces or resistances (a share), an exponent of the forces minus 1, a slip ratio, an offset of the centre of gravity (m).
 inline constexpr double kMinReported = 0.005;
 
 /// Length of a vector with these components. The components are assumed to be uncorrelated.
