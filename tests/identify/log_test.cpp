@@ -926,6 +926,27 @@ TEST(Log, ARefusedTermOfAResistanceRefusesTheRest) {
   EXPECT_THAT(result.refusal_reason[2], ::testing::StartsWith("yaw.alpha is not determined"));
 }
 
+TEST(Log, AnInsignificantFrictionIsRefusedTogetherWithItsCoefficient) {
+  constexpr double kError = 0.04;
+  LogProblem problem;
+  problem.model.quantities = {free_parameter(ParameterId::kYawAlpha),
+                              free_parameter(ParameterId::kYawCoulomb)};
+  problem.bounds.assign(2, {-10.0, 10.0});
+  const FreeQuantity& friction = problem.model.quantities[1];
+  const auto reason = [&](double value, const std::string& why_alpha) {
+    const double x = to_coordinate(friction.scale, value);
+    const double std = kError / friction.jacobian(x);
+    Identifiability found;
+    found.covariance = Eigen::Vector2d(1.0, std * std).asDiagonal();
+    found.refusal_reason = {why_alpha, ""};
+    return without_stopped(found, problem, {0.0, x}).refusal_reason[1];
+  };
+  EXPECT_THAT(reason(1.9 * kError, "unknown"),
+              ::testing::StartsWith("yaw.alpha is not determined"));
+  EXPECT_EQ(reason(2.1 * kError, "unknown"), "");
+  EXPECT_EQ(reason(1.9 * kError, ""), "");
+}
+
 /// Oscillating errors, d'' = -2 zeta omega d' - omega^2 d + noise, integrated with small steps,
 /// plus white noise. The oscillation has standard deviation 1.
 std::vector<ErrorSeries> swinging(double omega, double zeta, double white_std, double step_s) {

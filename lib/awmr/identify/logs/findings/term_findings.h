@@ -38,7 +38,8 @@ std::optional<Identified> significant(const LogFit& fit, What what) {
 }
 
 /// A smaller effect is not reported, because no correction of the vehicle is as exact: a difference
-/// of forces or resistances (a share), an exponent of the forces minus 1, a slip ratio, an offset of the centre of gravity (m).
+/// of forces or resistances (a share), an exponent of the forces minus 1, a slip ratio, an offset
+/// of the centre of gravity (m).
 inline constexpr double kMinReported = 0.005;
 
 /// Length of a vector with these components. The components are assumed to be uncorrelated.

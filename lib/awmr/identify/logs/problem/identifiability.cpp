@@ -160,6 +160,31 @@ void refuse_rest_of_resistance(const std::vector<FreeQuantity>& quantities,
   }
 }
 
+/// Refuses the Coulomb friction or quadratic coefficient of a resistance whose coefficient alpha is
+/// refused, if it is below two standard errors. A friction that held the vehicle at rest is known
+/// only from below, and its interval around a small value would be wrong.
+void refuse_insignificant_rest(const std::vector<FreeQuantity>& quantities,
+                               const std::vector<double>& coordinates, Identifiability& found) {
+  constexpr double kErrors = 2.0;
+  constexpr std::pair<ParameterId, ParameterId> kTerms[] = {
+      {ParameterId::kSurgeCoulomb, ParameterId::kSurgeAlpha},
+      {ParameterId::kSurgeQuadratic, ParameterId::kSurgeAlpha},
+      {ParameterId::kYawCoulomb, ParameterId::kYawAlpha},
+      {ParameterId::kYawQuadratic, ParameterId::kYawAlpha}};
+  for (const auto& [term, alpha] : kTerms) {
+    const auto place = place_of(quantities, term);
+    const auto alpha_place = place_of(quantities, alpha);
+    if (!place || !alpha_place || found.refusal_reason[*alpha_place].empty()) continue;
+    const FreeQuantity& q = quantities[*place];
+    const Eigen::Index i = eigen_index(*place);
+    const double error = q.jacobian(coordinates[*place]) * std::sqrt(found.covariance(i, i));
+    std::string& why = found.refusal_reason[*place];
+    if (!why.empty() || q.value(coordinates[*place]) > kErrors * error) continue;
+    why = fmt::format("{} is not determined, and without it this value is not significant",
+                      info(alpha).name);
+  }
+}
+
 }  // namespace
 
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
@@ -212,6 +237,7 @@ Identifiability without_stopped(Identifiability found, const LogProblem& problem
     found.refusal_reason[i] = why_stopped(quantities[i], coordinates[i]);
     refuse_dependent(eigen_index(i), quantities, found);
   }
+  refuse_insignificant_rest(quantities, coordinates, found);
   refuse_rest_of_resistance(quantities, found);
   return found;
 }

@@ -64,8 +64,8 @@ Identifiability identifiability(const Eigen::MatrixXd& information, const Scores
 /// Refuses every quantity (gives it no value) whose search ended at an end of its range, and every
 /// quantity whose correlation with such a quantity exceeds 0.3 in magnitude. If a term of a
 /// resistance is refused, also refuses the parameters that have no meaning without it: alpha, if
-/// the Coulomb friction c, the quadratic coefficient q or the dead zone is refused; the exponent
-/// beta, if alpha is refused.
+/// the Coulomb friction c, the quadratic coefficient q or the dead zone is refused; c or q below two
+/// standard errors, and the exponent beta, if alpha is refused.
 Identifiability without_stopped(Identifiability found, const LogProblem& problem,
                                 const std::vector<double>& coordinates);
 
