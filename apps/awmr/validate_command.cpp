@@ -33,8 +33,9 @@ Result<Validation> validate_with_progress(const Model& model, const std::optiona
   return validate(model, gains, options);
 }
 
-/// Returns the verdict, and the paper's claims that are and are not reproduced.
-std::string brief_of(const Validation& validation) {
+/// Returns the verdict, and for the paper's vehicle its claims that are and are not reproduced.
+std::string brief_of(const Validation& validation, const Vehicle& vehicle) {
+  if (!is_vehicle_of_paper(vehicle)) return fmt::format("  {}\n", validation.verdict);
   std::vector<std::string> reproduced;
   std::vector<std::string> others;
   for (const Claim& claim : validation.claims) {
@@ -153,12 +154,13 @@ void note_fitted_logs(const Model& model, const Provenance& provenance,
 }
 
 /// Returns the claims if requested, else the verdict and the prediction errors of each log.
-std::string summary_of(const ValidateCommand& command, const Validation& validation) {
+std::string summary_of(const ValidateCommand& command, const Validation& validation,
+                       const Vehicle& vehicle) {
   if (command.claims) return claims_table(validation.claims) + validation.verdict + '\n';
   const char* const title = validation.trials.empty()
                                 ? ""
                                 : "on the trials to which the model was fitted, not on new data\n";
-  std::string text = title + brief_of(validation) + logs_table(validation);
+  std::string text = title + brief_of(validation, vehicle) + logs_table(validation);
   for (const Acceptance& drive : validation.drives) text += acceptance_table(drive);
   return text;
 }
@@ -245,10 +247,10 @@ Result<Outcome> execute(const ValidateCommand& command) {
     AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings));
   }
   note_fitted_logs(model, provenance, findings);
-  Outcome outcome{.summary = summary_of(command, validation),
+  Outcome outcome{.summary = summary_of(command, validation, model.vehicle),
                   .details = command.claims ? "" : validation_table(validation),
                   .closing = fmt::format("wrote {}\n", command.output.string()),
-                  .brief = brief_of(validation),
+                  .brief = brief_of(validation, model.vehicle),
                   .findings = std::move(findings),
                   .refused = !validation.passed,
                   .document = validation_text(validation, provenance),

@@ -94,6 +94,10 @@ struct Vehicle {
   double inertia_kgm2() const;
 };
 
+/// True if mass, length, width, l_f and d have the values of the paper's vehicle. The paper's claims
+/// are about this vehicle, so they are shown only for it.
+bool is_vehicle_of_paper(const Vehicle& vehicle);
+
 /// Range of the force of one wheel, divided by F_max: the range of the commands, reduced at both
 /// ends by the motors' dead zone.
 inline Interval forces_beyond_dead_zone(const Interval& wheel_force, double dead_zone) {

@@ -1,7 +1,6 @@
 #include "awmr/report/report.h"
 
 #include <array>
-#include <cmath>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -41,15 +40,6 @@ std::string script_safe(const Json& json) {
     }
   }
   return text;
-}
-
-/// True if mass, length, width, l_f and d have the values of the paper's vehicle. The page shows
-/// the paper's claims only for this vehicle.
-bool is_vehicle_of_paper(const Vehicle& vehicle) {
-  const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-9 * b; };
-  return near(vehicle.mass_kg, 37.0) && near(vehicle.length_m, 1.32) &&
-         near(vehicle.width_m, 0.78) && near(vehicle.front_axle_m, 0.35) &&
-         near(vehicle.half_track_m, 0.36);
 }
 
 /// Rounds all numbers to eight significant digits, which is more than the page shows.
