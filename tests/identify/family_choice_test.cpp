@@ -218,9 +218,7 @@ TEST(Families, OfMotorsThatLagLeaveTheMassRightWhereOnlyTheSpeedIsMeasured) {
 /// the time constant `lag_s`.
 DrivingLog driven_throughout(const Plant<double>& vehicle, double lag_s, std::uint64_t seed) {
   DrivingLog log = drive(kTruths[1], seed, {.duration_s = 20.0, .rate_hz = 25.0});
-  for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
-    log[channel].reset();
-  }
+  remove_pose(log);
   for (std::size_t i = 0; i < log.rows(); ++i) {
     if (log.force_left[i] == 0.0 && log.force_right[i] == 0.0) {
       log.force_left[i] = log.force_right[i] = 0.3;

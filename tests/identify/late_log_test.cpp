@@ -253,9 +253,7 @@ DrivingLog with_differenced_heading(DrivingLog log) {
     rate[i] = (heading[i] - heading[i - 1]) / kStep_s;
   }
   rate.front() = rate[1];
-  for (const LogChannel absent : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
-    log[absent].reset();
-  }
+  remove_pose(log);
   return log;
 }
 
@@ -471,9 +469,7 @@ TEST(LateLog, WithdrawsTheMassIfSlipResemblesLateCommands) {
   // late yaw rate have the same effect, so the log does not show which of the two is the cause.
   DrivingLog log = with_slip(
       drive(kTruths[1], 8, {.duration_s = 20.0, .rate_hz = 50.0}, kPreciseSensors), 0.02, false);
-  for (const LogChannel absent : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
-    log[absent].reset();
-  }
+  remove_pose(log);
   TrialData data;
   data.logs = {std::move(log)};
   const auto result = identify(robot(), data, power_law(), {});

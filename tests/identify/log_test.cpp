@@ -190,7 +190,7 @@ TEST(Log, FindsADelayAndABias) {
 TEST(Log, FindsTheBiasOfAGyroscopeWithoutAHeading) {
   constexpr double kBias_radps = 0.02;
   DrivingLog log = drive(kTruths[1], 8, {.duration_s = 15.0, .rate_hz = 50.0}, kPreciseSensors);
-  for (const LogChannel c : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) log[c].reset();
+  remove_pose(log);
   for (double& r : log[LogChannel::kYawRate]->value) r += kBias_radps;
   TrialData data;
   data.logs = {log};
@@ -230,9 +230,7 @@ TEST(Log, FindsWhatDiffersBetweenLogs) {
         drive(kTruths[1], 8 + i, {.duration_s = 8.0, .rate_hz = 50.0}, kVeryPreciseSensors);
     log.number = i + 1;
     log.file = fmt::format("log_{}.csv", i + 1);
-    for (const LogChannel c : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
-      log[c].reset();
-    }
+    remove_pose(log);
     for (double& r : log[LogChannel::kYawRate]->value) r += kBias_radps[i];
     if (log.number == 2) {
       for (double& force : log.force_left) force /= kWeaker;
@@ -596,9 +594,7 @@ TEST(BackEmf, IsFoundInLogsFromDifferentGround) {
     const DrivePlan plan{.duration_s = 16.0, .rate_hz = 25.0, .drive = 70U + number};
     data.logs.push_back(simulate_log(geared, robot(), plan, kMostPreciseSensors, random));
     data.logs.back().number = number;
-    for (const LogChannel c : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
-      data.logs.back()[c].reset();
-    }
+    remove_pose(data.logs.back());
     for (Resistance<double>* one : {&geared.surge, &geared.yaw}) {
       one->alpha *= kHigher;
       one->coulomb *= kHigher;

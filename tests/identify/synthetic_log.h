@@ -34,6 +34,11 @@ inline DrivingLog drive(const Truth& t, std::uint64_t seed, DrivePlan plan = {.d
   return simulate_log(plant(t), robot(), plan, noise, random);
 }
 
+/// Removes position and heading.
+inline void remove_pose(DrivingLog& log) {
+  for (const LogChannel c : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) log[c].reset();
+}
+
 /// Sensors with 1/sqrt(2) of the default noise. A log of 20 s then shows as much as one of 40 s with
 /// the default noise, and is fitted in half the time. So is a log with half the rows.
 inline constexpr SensorNoise kPreciseSensors{

@@ -143,6 +143,7 @@ function groupBy(list, key) {
 /// Yaw-control modes in their order, each with its hue and line width. Thick lines are drawn first,
 /// so that coinciding lines are all visible.
 const modes = ["differential", "steering", "combined"];
+const isSteered = (vehicle) => vehicle.drive !== "differential";
 const modeStyle = {
   differential: {colour: "var(--differential)", width: 4.5, opacity: 0.55},
   steering: {colour: "var(--steering)", width: 2.2},

@@ -113,7 +113,7 @@ function liveCharts(parent, start) {
     ["speed", "speed, m/s", "u_mps"], ["steering angle", "steering δ, deg", "steering_rad",
       degreesOf],
     ["force, left wheels", "F′L", "force_left"], ["force, right wheels", "F′R", "force_right"]]
-    .filter(([, , key]) => key !== "steering_rad" || report.model.vehicle.drive !== "differential");
+    .filter(([, , key]) => key !== "steering_rad" || isSteered(report.model.vehicle));
   const charts = kinds.map(([title, y, key, scale]) => {
     const series = lines.map((look) => ({...look, points: of(start, key, scale)}));
     if (key === "psi_rad") series.push({...referenceLook,

@@ -65,9 +65,8 @@ function scenarioPart(parent, stem, runs, scenario, open) {
     series: [
     ...runs.map((run) => lineOf(run, "x_m", "y_m")),
     course]});
-  const isSteered = runs.some((run) => run.columns.steering_deg.some((angle) => angle !== 0));
   for (const signal of signals) {
-    if (signal.value === "steering_deg" && !isSteered) continue;
+    if (signal.value === "steering_deg" && !isSteered(report.model.vehicle)) continue;
     const series = runs.map((run) => lineOf(run, "t_s", signal.value));
     if (signal.reference && (sameHeading
       || signal.value !== "psi_deg")) series.push(referenceOf(first, "t_s", signal.reference));

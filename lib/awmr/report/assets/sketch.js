@@ -45,8 +45,7 @@ function sketchWheel({path, box, label}, wheel, {size, angle, isDriven, isNamed}
 
 function sketchFrame(parent, vehicle) {
   const wheels = vehicle.drive === "front_wheel" ? "two driven wheels" : "four driven wheels";
-  const steering = vehicle.drive === "differential" ? "without steering"
-    : "front wheels steered by delta";
+  const steering = isSteered(vehicle) ? "front wheels steered by delta" : "without steering";
   const svg = drawIn(parent, "svg", {class: "sketch", viewBox: "0 0 400 250", role: "img",
     "aria-label": `The vehicle from above: ${wheels}, heading psi, ${steering}`});
   const tip = drawIn(drawIn(svg, "defs", {}), "marker", {id: "tip", viewBox: "0 0 8 8", refX: 6,
@@ -70,7 +69,7 @@ function vehicleSketch(parent, vehicle) {
   label(turned([reach - 4, 0], -sketchHeading / 2), "ψ", "heading, counter-clockwise from the x axis");
 
   box([0, 0], [a, b], 0, "body");
-  const delta = vehicle.drive === "differential" ? 0 : sketchSteering;
+  const delta = isSteered(vehicle) ? sketchSteering : 0;
   for (const x of [l, -l]) {
     path([[x, -d], [x, d]], {class: "axle"});
     for (const y of [d, -d]) {
