@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "awmr/core/containers.h"
+#include "awmr/trials/checks/dead_reckoning.h"
 #include "awmr/trials/checks/log_consistency.h"
 #include "awmr/trials/checks/repeated_logs.h"
 #include "awmr/trials/checks/table_consistency.h"
@@ -70,6 +71,7 @@ void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
         !sound) {
       append(faults, sound.error().faults);
     }
+    set_aside_dead_reckoning(log, trials.findings);
     trials.data.logs.push_back(std::move(log));
   }
 }

@@ -38,8 +38,9 @@ struct TrialFiles {
 /// turning, logs.
 std::vector<std::filesystem::path> paths_of(const TrialFiles& files);
 
-/// Reads and combines the files. `vehicle`: the vehicle that made the trials. Reports the errors of
-/// all files at once. Errors (input): no file; the errors of read_surge(), read_turning(),
+/// Reads and combines the files. `vehicle`: the vehicle that made the trials. Adds the findings of
+/// all checks, and leaves out poses of an odometry (dead_reckoning.h). Reports the errors of all
+/// files at once. Errors (input): no file; the errors of read_surge(), read_turning(),
 /// read_coastdown() and read_logs(); tables and logs that contradict themselves or the vehicle
 /// (table_consistency.h, log_consistency.h); the same log given twice; a second file of stop times;
 /// steady_from_logs without a log; an unknown or unused column mapping.
