@@ -1,5 +1,5 @@
 # AWMR_KERNELS: the vector instruction sets for which the simulation of batches of runs is compiled, one kernel for each
-# (lib/awmr/simulate/lanes/README.md).
+# (lib/awmr/simulate/simd/README.md).
 #   avx2, avx512  on x86-64; both by default
 #   neon          on 64-bit ARM; by default
 #   (empty)       none: runs are simulated one by one

@@ -17,7 +17,7 @@ namespace {
 using namespace awmr;
 using bench::Counted;
 
-/// Cost of functions in a batch (lib/awmr/simulate/lanes/lane_math.h), in additions,
+/// Cost of functions in a batch (lib/awmr/simulate/simd/lane_math.h), in additions,
 /// multiplications, divisions and roots; an FMA counts as two. Sine and cosine of an angle are
 /// computed together. A polynomial of n coefficients is n - 1 FMAs.
 ///   pow       logarithm: 6 operations, 2 FMAs and a polynomial of 7; a product with the exponent;

@@ -13,7 +13,7 @@
 #error "lanes need AVX2 or AVX-512"
 #endif
 
-#include "awmr/simulate/lanes/lane_math.h"
+#include "awmr/simulate/simd/lane_math.h"
 
 namespace awmr {
 namespace testing {

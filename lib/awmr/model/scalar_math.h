@@ -25,7 +25,7 @@ namespace awmr {
 
 /// Result type of a comparison of two T: bool. A batch of vehicles, whose lanes can differ, has its
 /// own mask type with any(), all(), select() and the operators !, && and ||
-/// (simulate/lanes/lanes.h).
+/// (simulate/simd/lanes.h).
 ///
 /// A branch that can differ between lanes is written as
 ///   if (any(m)) { if (MaskOf<T>::kOneLane || all(m)) return a;  x = select(m, a, x); }

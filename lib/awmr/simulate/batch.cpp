@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "awmr/simulate/closed_loop.h"
-#include "awmr/simulate/lanes/kernels.h"
+#include "awmr/simulate/simd/kernels.h"
 
 namespace awmr {
 namespace {

@@ -9,7 +9,7 @@
 
 namespace awmr {
 
-/// All numbers of the runs that are simulated together. Plain data, because the kernels of lanes/
+/// All numbers of the runs that are simulated together. Plain data, because the kernels of simd/
 /// share no functions with the rest of the program.
 template <class Row>
 struct LoopRuns {

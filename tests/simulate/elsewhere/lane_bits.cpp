@@ -10,7 +10,7 @@
 #include "awmr/identify/logs/simulation/sensitivity_kernel.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/simulate/batch.h"
-#include "awmr/simulate/lanes/kernels.h"
+#include "awmr/simulate/simd/kernels.h"
 
 namespace {
 

@@ -78,8 +78,8 @@ def built(folder, compiler, kernels):
     """Builds lane_bits with these kernels for the processor of the compiler; returns the path of the program."""
     folder.mkdir()
     jobs = [(LIB / f"{part}.cpp", []) for part in PARTS] + [(HERE / "lane_bits.cpp", [])]
-    jobs += [(LIB / "simulate/lanes/kernels.cpp", [f"-DAWMR_HAS_{kernel.upper()}" for kernel in kernels])]
-    jobs += [(LIB / f"simulate/lanes/kernel_{kernel}.cpp", KERNELS[kernel] + KERNEL_OPTIONS) for kernel in kernels]
+    jobs += [(LIB / "simulate/simd/kernels.cpp", [f"-DAWMR_HAS_{kernel.upper()}" for kernel in kernels])]
+    jobs += [(LIB / f"simulate/simd/kernel_{kernel}.cpp", KERNELS[kernel] + KERNEL_OPTIONS) for kernel in kernels]
     launcher = ["ccache"] if shutil.which("ccache") else []
     for source, options in jobs:
         run([*launcher, compiler, *OPTIONS, *options, "-c", source, "-o", folder / f"{source.stem}.o"])

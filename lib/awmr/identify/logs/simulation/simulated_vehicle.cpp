@@ -117,22 +117,10 @@ void scale_resistance(LogChannel axis, double e, std::size_t i, ParameterValues<
   }
 }
 
-}  // namespace
-
-bool SensorTerms::any_earlier() const {
-  const auto is_free = [](const auto& one) { return one.has_value(); };
-  return std::ranges::any_of(delay, is_free) || std::ranges::any_of(averaging, is_free);
-}
-
-bool SensorTerms::any_smoothed() const {
-  return std::ranges::any_of(smoothing, [](const auto& one) { return one.has_value(); });
-}
-
-SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
-                            const double* coordinates, const double* initial_state) {
-  SimulatedVehicle vehicle{};
-  const CommandTerms& terms = vehicle.path.terms;
-  vehicle.path.steering_stop_rad = radians(model.vehicle.steering_max_deg);
+/// Sets the parameters, further forces, commands and sensors of `vehicle` from the free quantities
+/// of the model. Returns the values of all parameters, free and fixed.
+ParameterValues<double> set_quantities(const LogModel& model, const FitWindow& window,
+                                       const double* coordinates, SimulatedVehicle& vehicle) {
   ParameterValues<double> values = model.held;
   for (std::size_t i = 0; i < model.quantities.size(); ++i) {
     const FreeQuantity& q = model.quantities[i];
@@ -158,26 +146,52 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
     if (q.kind != Kind::kResistanceScale || !q.acts_in(*window.rows.log)) continue;
     scale_resistance(q.channel, coordinates[i], i, values, vehicle.parameters);
   }
+  return values;
+}
+
+/// Sets the plant of `vehicle` with these parameter values, resolved by the model's longest step.
+void set_plant(const LogModel& model, const FitWindow& window,
+               const ParameterValues<double>& values, SimulatedVehicle& vehicle) {
+  Plant<double>& plant = vehicle.plant;
+  plant = resolved_beside_friction(plant_of(model.vehicle, values), model.longest_step_s);
+  plant.steering_max_rate_radps =
+      vehicle.path.terms.value(Kind::kServoRate, plant.steering_max_rate_radps);
+  slow_servo(model.longest_step_s, vehicle.parameters, plant);
+  // A logged steering angle is used as it is, without the steering limit of the vehicle. If the
+  // stop limits the command, it does not limit the angle.
+  if (!window.rows.log->steering_command_rad || vehicle.path.stop_limits_command) {
+    plant.steering_max_rad = 10.0;
+  }
+}
+
+}  // namespace
+
+bool SensorTerms::any_earlier() const {
+  const auto is_free = [](const auto& one) { return one.has_value(); };
+  return std::ranges::any_of(delay, is_free) || std::ranges::any_of(averaging, is_free);
+}
+
+bool SensorTerms::any_smoothed() const {
+  return std::ranges::any_of(smoothing, [](const auto& one) { return one.has_value(); });
+}
+
+SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
+                            const double* coordinates, const double* initial_state) {
+  SimulatedVehicle vehicle{};
+  vehicle.path.steering_stop_rad = radians(model.vehicle.steering_max_deg);
+  const ParameterValues<double> values = set_quantities(model, window, coordinates, vehicle);
   set_motor_dynamics(model, window, vehicle.path);
   vehicle.extra.has_motor_per_side =
       has_force_excess(model.quantities) && has_force_difference(*window.rows.log);
   vehicle.path.switches_off = values[at(ParameterId::kBackEmf)] > 0.0;
-  vehicle.plant = resolved_beside_friction(plant_of(model.vehicle, values), model.longest_step_s);
-  vehicle.plant.steering_max_rate_radps =
-      terms.value(Kind::kServoRate, vehicle.plant.steering_max_rate_radps);
-  slow_servo(model.longest_step_s, vehicle.parameters, vehicle.plant);
-  // A logged steering angle is used as it is, without the steering limit of the vehicle. If the
-  // stop limits the command, it does not limit the angle.
-  if (!window.rows.log->steering_command_rad || vehicle.path.stop_limits_command) {
-    vehicle.plant.steering_max_rad = 10.0;
-  }
+  set_plant(model, window, values, vehicle);
   vehicle.initial = window.measured;
   for (std::size_t i = 0; i < model.initial.size(); ++i) {
     channel_of(vehicle.initial, model.initial[i].channel) = initial_state[i];
   }
   vehicle.path.changes = window.changes;
   vehicle.path.first_change_column = model.quantities.size() + model.initial.size();
-  vehicle.initial.steering_rad += terms.value(Kind::kSteeringTrim);
+  vehicle.initial.steering_rad += vehicle.path.terms.value(Kind::kSteeringTrim);
   return vehicle;
 }
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "awmr/core/units.h"
-#include "awmr/simulate/lanes/lanes.h"
+#include "awmr/simulate/simd/lanes.h"
 
 namespace awmr {
 namespace lanes {

@@ -1,4 +1,4 @@
-#include "awmr/simulate/lanes/kernels.h"
+#include "awmr/simulate/simd/kernels.h"
 
 namespace awmr {
 namespace lanes {

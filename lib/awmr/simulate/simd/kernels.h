@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "awmr/simulate/lanes/row.h"
 #include "awmr/simulate/loop_steps.h"
+#include "awmr/simulate/simd/row.h"
 
 namespace awmr {
 namespace lanes {

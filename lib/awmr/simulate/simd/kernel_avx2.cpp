@@ -1,3 +1,3 @@
 #define AWMR_LANES avx2
 #define AWMR_LANES_ARCH fma3<xsimd::avx2>
-#include "awmr/simulate/lanes/kernel.inc"
+#include "awmr/simulate/simd/kernel.inc"

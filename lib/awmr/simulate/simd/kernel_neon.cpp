@@ -1,3 +1,3 @@
 #define AWMR_LANES neon
 #define AWMR_LANES_ARCH neon64
-#include "awmr/simulate/lanes/kernel.inc"
+#include "awmr/simulate/simd/kernel.inc"
