@@ -130,5 +130,52 @@ TEST(CommandFindings, LeaveOutTimesWithinTheRowSpacing) {
   }
 }
 
+/// A fit whose errors of the yaw rate have this standard deviation.
+LogFit fit_with_yaw_rate_error(double error_radps) {
+  LogFit fit;
+  fit.errors[{LogChannel::kYawRate}] = {
+      {.error = {error_radps, -error_radps}, .since_s = {0.0, 1.0}}};
+  return fit;
+}
+
+/// Replaces the yaw rate by that of rolling wheels with the wheelbase `wheelbase_m` and a steering
+/// lag of 0.1 s.
+void turn_like_a_car(double wheelbase_m, DrivingLog& log) {
+  Random random(1, 9);
+  double steering = 0.0;
+  for (std::size_t i = 1; i < log.rows(); ++i) {
+    const double share = 1.0 - std::exp(-(log.t_s[i] - log.t_s[i - 1]) / 0.1);
+    steering += share * (log.driving_steering_rad()[i] - steering);
+    log[LogChannel::kYawRate]->value[i] =
+        log[LogChannel::kSpeed]->value[i] * std::tan(steering) / wheelbase_m +
+        0.01 * random.normal();
+  }
+}
+
+TEST(CarSteering, IsNamedIfItExplainsTheYawRateBetterThanTheFit) {
+  DrivingLog log = drive(kTruths[0], 3, {.duration_s = 40.0});
+  const double wheelbase_m = 0.7 * robot().length_m;
+  turn_like_a_car(wheelbase_m, log);
+  const auto found = car_steering_finding(robot(), {log}, fit_with_yaw_rate_error(0.2));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->code, "turns-like-a-car");
+  EXPECT_EQ(found->severity, Severity::kWarning);
+  EXPECT_FALSE(car_steering_finding(robot(), {log}, fit_with_yaw_rate_error(0.01)));
+  Vehicle without_steering = robot();
+  without_steering.drive = Drive::kDifferential;
+  EXPECT_FALSE(car_steering_finding(without_steering, {log}, fit_with_yaw_rate_error(0.2)));
+}
+
+TEST(CarSteering, IsNotNamedForTheModelOrAnImpossibleWheelbase) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    DrivingLog log = drive(kTruths[0], seed, {.duration_s = 40.0});
+    EXPECT_FALSE(car_steering_finding(robot(), {log}, fit_with_yaw_rate_error(1.0))) << seed;
+    turn_like_a_car(2.0 * robot().length_m, log);
+    EXPECT_FALSE(car_steering_finding(robot(), {log}, fit_with_yaw_rate_error(1.0))) << seed;
+    log[LogChannel::kSpeed].reset();
+    EXPECT_FALSE(car_steering_finding(robot(), {log}, fit_with_yaw_rate_error(1.0))) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace awmr::testing

@@ -20,6 +20,7 @@ constexpr CodeEffect kEffects[] = {
     {"no-degrees-of-freedom", Effect::kWithdrawn},
     {"too-few-rows", Effect::kWithdrawn},
     {"exponent-at-bound", Effect::kWithdrawn},
+    {"turns-like-a-car", Effect::kWithdrawn},
     {"model-inadequate", Effect::kWithdrawn},
     {"power-law-inadequate", Effect::kWithdrawn},
     {"family-by-coastdown", Effect::kWithdrawn},

@@ -74,8 +74,14 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   const bool try_families = surge.requested && surge.family == Family::kPower;
   const Adequacy adequacy = check_adequacy(logs, power_law, chosen, try_families);
   append(stage.reports, adequacy.alternatives);
-  append(stage.findings, adequacy.findings);
   stage.withdraws_intervals = adequacy.withdraws_intervals || found.is_out_of_time;
+  if (!adequacy.findings.empty()) {
+    if (const auto car = car_steering_finding(power_law.vehicle, logs, chosen.fit)) {
+      stage.findings.push_back(*car);
+      stage.withdraws_intervals = true;
+    }
+  }
+  append(stage.findings, adequacy.findings);
   if (adequacy.withdraws_sway) {
     withdraw_intervals(chosen.fit.report, info(ParameterId::kSwayAlpha).name);
   }

@@ -1,5 +1,5 @@
 /// Checks of the fit that run_log_stage() has chosen. Each of them is in a .cpp file of its own:
-/// slip_choice, adequacy, speed_control, gyro_scale, inertia_check. Private to identify/.
+/// slip_choice, adequacy, car_steering, speed_control, gyro_scale, inertia_check. Private to identify/.
 #pragma once
 
 #include <optional>
@@ -56,6 +56,17 @@ struct Adequacy {
 /// fit, which has power laws in surge and yaw; the fits with other families use the same options.
 Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         const FamilyFit& chosen, bool try_families);
+
+/// Returns the warning `turns-like-a-car` if the measured yaw rate r follows the formula of a car
+/// whose wheels roll without side slip,
+///
+///     r = u tan(d_r)/L          (u: measured speed, d_r: steering angle, L: wheelbase)
+///
+/// clearly better than the simulation of `fit`. The side force of the tyres then turns the vehicle,
+/// which the model (39) to (41) does not contain. d_r follows the command with a first-order lag,
+/// the best one of a few. Empty without steering, measured speed or measured yaw rate.
+std::optional<Finding> car_steering_finding(const Vehicle& vehicle,
+                                            const std::vector<DrivingLog>& logs, const LogFit& fit);
 
 /// Result of find_speed_control().
 struct SpeedControl {

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "awmr/identify/logs/checks/log_checks.h"
+
+namespace awmr {
+namespace {
+
+/// Sums of the regression r = k u tan(d_r) over rows, with the standard deviation of its errors.
+struct CarRegression {
+  double rates = 0.0;     ///< sum of r^2
+  double products = 0.0;  ///< sum of r u tan(d_r)
+  double squares = 0.0;   ///< sum of (u tan(d_r))^2
+  double rows = 0.0;
+
+  double curvature_factor() const { return products / squares; }
+  double error() const {
+    return std::sqrt(std::max(0.0, rates - products * products / squares) / rows);
+  }
+  double size() const { return std::sqrt(rates / rows); }
+};
+
+/// Adds the rows of a log with a measured yaw rate. `lag_s`: time constant of the steering; 0 if
+/// the steering follows its command at once.
+void add_rows(const DrivingLog& log, double lag_s, CarRegression& sums) {
+  const std::vector<double>& commands = log.driving_steering_rad();
+  const std::vector<double>& speed = log[LogChannel::kSpeed]->value;
+  const Measured& rate = *log[LogChannel::kYawRate];
+  double steering = commands.front();
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    const double step_s = i > 0 ? log.t_s[i] - log.t_s[i - 1] : 0.0;
+    const double share = lag_s > 0.0 ? 1.0 - std::exp(-step_s / lag_s) : 1.0;
+    steering += share * (commands[i] - steering);
+    if (!rate.fresh[i]) continue;
+    const double rolling = speed[i] * std::tan(steering);
+    sums.rates += rate.value[i] * rate.value[i];
+    sums.products += rate.value[i] * rolling;
+    sums.squares += rolling * rolling;
+    sums.rows += 1.0;
+  }
+}
+
+/// Standard deviation of the errors of the yaw rate of a fit, rad/s; 0 if it is not measured.
+double yaw_rate_error(const LogFit& fit) {
+  double squares = 0.0;
+  double count = 0.0;
+  for (const auto& [sensor, parts] : fit.errors) {
+    if (sensor.channel != LogChannel::kYawRate) continue;
+    for (const ErrorSeries& part : parts) {
+      for (const double error : part.error) squares += error * error;
+      count += static_cast<double>(part.error.size());
+    }
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+}  // namespace
+
+std::optional<Finding> car_steering_finding(const Vehicle& vehicle,
+                                            const std::vector<DrivingLog>& logs,
+                                            const LogFit& fit) {
+  constexpr std::array kLags_s{0.0, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.45};
+  constexpr double kMuchBetter = 0.7;        // error of the car over that of the fit
+  constexpr double kExplained = 0.4;         // error of the car over the yaw rate itself
+  constexpr Interval kWheelbases{0.4, 1.5};  // over the length of the vehicle
+  if (!vehicle.has_steering()) return std::nullopt;
+  if (std::ranges::any_of(logs, [](const DrivingLog& log) {
+        return !log[LogChannel::kSpeed] || !log[LogChannel::kYawRate];
+      })) {
+    return std::nullopt;
+  }
+  CarRegression best;
+  double best_lag_s = 0.0;
+  for (const double lag_s : kLags_s) {
+    CarRegression sums;
+    for (const DrivingLog& log : logs) add_rows(log, lag_s, sums);
+    if (!(sums.squares > 0.0) || sums.rows == 0.0) return std::nullopt;
+    if (best.rows > 0.0 && sums.error() >= best.error()) continue;
+    best = sums;
+    best_lag_s = lag_s;
+  }
+  const double error_of_fit = yaw_rate_error(fit);
+  const double wheelbase_m = 1.0 / best.curvature_factor();
+  if (!(best.error() < kMuchBetter * error_of_fit) || !(best.error() < kExplained * best.size()) ||
+      !kWheelbases.contains(wheelbase_m / vehicle.length_m)) {
+    return std::nullopt;
+  }
+  return Finding{
+      logs.front().file, 0, Severity::kWarning, "turns-like-a-car",
+      fmt::format("the vehicle turns like a car: its yaw rate is u tan(steering)/L with the "
+                  "wheelbase L = {:.2g} m and a steering lag of about {:.2g} s, with or without "
+                  "thrust. This misses the measured yaw rate by {:.2g} rad/s, the fit by {:.2g} "
+                  "rad/s. In the model of awmr, the thrust of the steered front wheels turns the "
+                  "vehicle, not the side force of its tyres, so that the yaw resistance, I'z and "
+                  "gains of the heading law from these logs are not valid. For the mass and the "
+                  "surge resistance, identify logs that drive straight ahead",
+                  wheelbase_m, best_lag_s, best.error(), error_of_fit)};
+}
+
+}  // namespace awmr
