@@ -49,6 +49,21 @@ std::optional<Finding> withdraw_fast_servo(LogFit& fit, const std::string& file)
                   servo_s, spacing_s)};
 }
 
+/// Refuses the yaw resistance and the inertia of a vehicle that turns like a car, and withdraws all
+/// intervals.
+void refuse_yaw_of_car(LogStage& stage) {
+  stage.withdraws_intervals = true;
+  for (const ParameterInfo& parameter : parameter_table()) {
+    const bool is_of_yaw =
+        parameter.id == ParameterId::kInertiaNorm || parameter.name.starts_with("yaw.");
+    if (!is_of_yaw) continue;
+    stage.reasons[parameter.id] =
+        "the vehicle turns like a car, by the side force of its tyres, which the model of awmr "
+        "does "
+        "not contain";
+  }
+}
+
 /// Selects the model of the logs: resistance families of surge and yaw, and back-EMF if it is
 /// significant. Decides between wheel slip and late commands (decide_slip()), and whether the
 /// steering stop limits the command or the angle (decide_stop()). Then checks whether the fit
@@ -78,7 +93,7 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   if (!adequacy.findings.empty()) {
     if (const auto car = car_steering_finding(power_law.vehicle, logs, chosen.fit)) {
       stage.findings.push_back(*car);
-      stage.withdraws_intervals = true;
+      refuse_yaw_of_car(stage);
     }
   }
   append(stage.findings, adequacy.findings);

@@ -12,7 +12,7 @@ const remedies = {
   "not-converged": "check the rows, and identify again",
   "power-law-inadequate": "identify again with the resistance family that the finding names",
   "family-by-coastdown": "identify again with the resistance family that the finding names",
-  "turns-like-a-car": "identify straight drives, and do not use heading gains of this model",
+  "turns-like-a-car": "identify the mass and the surge resistance from straight drives",
   "model-inadequate": "follow the finding, and identify again",
   "estimates-disagree": "repeat the trials that disagree, and identify again",
   "logs-disagree": "record under the conditions of use, and identify again",

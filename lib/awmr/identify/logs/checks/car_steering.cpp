@@ -94,9 +94,9 @@ std::optional<Finding> car_steering_finding(const Vehicle& vehicle,
                   "wheelbase L = {:.2g} m and a steering lag of about {:.2g} s, with or without "
                   "thrust. This misses the measured yaw rate by {:.2g} rad/s, the fit by {:.2g} "
                   "rad/s. In the model of awmr, the thrust of the steered front wheels turns the "
-                  "vehicle, not the side force of its tyres, so that the yaw resistance, I'z and "
-                  "gains of the heading law from these logs are not valid. For the mass and the "
-                  "surge resistance, identify logs that drive straight ahead",
+                  "vehicle, not the side force of its tyres, so these logs give no yaw resistance "
+                  "and no I'z. For the mass and the surge resistance, identify logs that drive "
+                  "straight ahead",
                   wheelbase_m, best_lag_s, best.error(), error_of_fit)};
 }
 
