@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -37,9 +36,16 @@ std::string with(std::string text, const std::string& from, const std::string& t
   return text;
 }
 
-/// The page, with test scripts, in a frame of this width: the browser's own window is never
-/// narrower than 500 px.
-std::string in_frame(std::string page, int width) {
+/// A report and the width of the frame in which it is opened.
+struct FramedPage {
+  fs::path report;
+  int width = 1280;
+};
+
+/// The page, with test scripts, in a frame of its width: the browser's own window is never narrower
+/// than 500 px. All frames have the same place, so that none is outside of the window.
+std::string in_frame(const FramedPage& framed) {
+  std::string page = read_all(framed.report);
   const fs::path source = fs::path(AWMR_SOURCE_DIR) / "tests/report";
   const auto script = [&](const char* name) {
     return "<script>" + read_all(source / name) + "</script>";
@@ -47,8 +53,8 @@ std::string in_frame(std::string page, int width) {
   page.insert(page.find("<head>") + 6, script("probe_begin.js"));
   page.insert(page.rfind("</body>"), script("probe_end.js"));
   page = with(with(page, "&", "&amp;"), "\"", "&quot;");
-  return "<!doctype html><meta charset=\"utf-8\"><iframe style=\"border:0;height:900px;width:" +
-         std::to_string(width) + "px\" srcdoc=\"" + page + "\"></iframe>";
+  return "<iframe style=\"position:absolute;top:0;left:0;border:0;height:900px;width:" +
+         std::to_string(framed.width) + "px\" srcdoc=\"" + page + "\"></iframe>";
 }
 
 std::string browser(const fs::path& profile, const std::string& arguments) {
@@ -60,26 +66,38 @@ std::string browser(const fs::path& profile, const std::string& arguments) {
          profile.string() + "' " + arguments;
 }
 
-/// Results of the scripts in the page (probe_end.js).
-Json looked_at(const fs::path& report, int width) {
+/// Values of the attribute data-probe in a text, in order.
+std::vector<Json> probes_in(const std::string& text) {
+  const std::string mark = " data-probe=\"";
+  std::vector<Json> probes;
+  for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos;) {
+    at += mark.size();
+    const std::string value = text.substr(at, text.find('"', at) - at);
+    probes.push_back(Json::parse(
+        with(with(with(with(value, "&quot;", "\""), "&lt;", "<"), "&gt;", ">"), "&amp;", "&")));
+  }
+  return probes;
+}
+
+/// Results of the scripts in each page (probe_end.js). The browser is started once for all of them.
+std::vector<Json> looked_at(const std::vector<FramedPage>& pages) {
   const TemporaryDirectory directory;
-  write_all(directory.path() / "framed.html", in_frame(read_all(report), width));
-  const std::string mark = "data-probe=\"";
+  std::string frames = "<!doctype html><meta charset=\"utf-8\">";
+  for (const FramedPage& page : pages) frames += in_frame(page);
+  write_all(directory.path() / "framed.html", frames);
   ProcessResult result;
-  // On a busy machine the browser's virtual time can run out before the page answers.
-  for (int attempt = 0; attempt < 3 && result.out.find(mark) == std::string::npos; ++attempt) {
+  // On a busy machine the browser's virtual time can run out before the pages answer.
+  for (int attempt = 0; attempt < 3; ++attempt) {
     result = run_process(browser(directory.path() / ("profile" + std::to_string(attempt)),
                                  "--window-size=1400,900 --dump-dom 'file://" +
                                      directory.path().string() + "/framed.html'"));
+    std::vector<Json> probes = probes_in(result.out);
+    if (probes.size() == pages.size()) return probes;
   }
-  const std::size_t begin = result.out.find(mark);
-  if (begin == std::string::npos)
-    throw std::runtime_error("the page did not answer: " + result.out.substr(0, 500));
-  const std::size_t end = result.out.find('"', begin + mark.size());
-  const std::string text = result.out.substr(begin + mark.size(), end - begin - mark.size());
-  return Json::parse(
-      with(with(with(with(text, "&quot;", "\""), "&lt;", "<"), "&gt;", ">"), "&amp;", "&"));
+  throw std::runtime_error("a page did not answer: " + result.out.substr(0, 500));
 }
+
+Json looked_at(const fs::path& report, int width) { return looked_at({{report, width}}).front(); }
 
 struct Extent {
   double low = 1e300;
@@ -148,12 +166,13 @@ class ReportInBrowser : public ::testing::Test {
   static void TearDownTestSuite() { delete directory_; }
   void SetUp() override { ASSERT_TRUE(found(AWMR_TOOL_CHROMIUM)); }
   static fs::path file(const std::string& name) { return directory_->path() / name; }
-  /// looked_at() of the suite's report; each width is opened once.
+  /// looked_at() of the suite's report: on a phone, on a desktop and on a wide screen.
   static const Json& report_at(int width) {
-    static std::map<int, Json> pages;
-    const auto [page, is_new] = pages.try_emplace(width);
-    if (is_new) page->second = looked_at(file("report.html"), width);
-    return page->second;
+    static const int widths[] = {390, 1280, 1440};
+    static const fs::path report = file("report.html");
+    static const std::vector<Json> pages =
+        looked_at({{report, widths[0]}, {report, widths[1]}, {report, widths[2]}});
+    return pages.at(static_cast<std::size_t>(std::ranges::find(widths, width) - widths));
   }
   static inline TemporaryDirectory* directory_ = nullptr;
 };
@@ -236,31 +255,24 @@ TEST_F(ReportInBrowser, IsWholeWithoutGainsComparisonOrTurns) {
   EXPECT_THAT(page.at("shaded"), IsEmpty());
 }
 
+/// Writes the report of a model into a new folder, in which the firmware's header exists.
+FramedPage report_on(const Json& model, const fs::path& folder) {
+  fs::create_directory(folder);
+  write_all(folder / "model.json", model.dump());
+  write_all(folder / "awmr_params.h", "");
+  for (const char* step : {"validate --model model.json -o validation.json", "report ."}) {
+    EXPECT_TRUE(succeeded(run_process(awmr(step), folder))) << step;
+  }
+  return {folder / "report.html"};
+}
+
 TEST_F(ReportInBrowser, BlockingFindingsAreTheFirstStepsAndTakeTheTickOfTheModel) {
-  const auto summary_with = [&](const Json& finding, bool has_coulomb = false) {
-    const TemporaryDirectory directory;
-    Json model = Json::parse(read_all(file("model.json")));
+  const TemporaryDirectory directory;
+  std::vector<FramedPage> pages;
+  const auto add_report = [&](Json model, const Json& finding) {
     if (!finding.is_null()) model["findings"].push_back(finding);
-    if (has_coulomb) {
-      model["yaw"]["family"] = "coulomb-power";
-      model["yaw"]["coulomb"] = {{"value", 1e-6}, {"std_error", nullptr}, {"ci95", nullptr},
-                                 {"unit", "m"},   {"source", "fitted"},   {"method", "trajectory"}};
-    }
-    write_all(directory.path() / "model.json", model.dump());
-    write_all(directory.path() / "awmr_params.h", "");
-    for (const char* step : {"validate --model model.json -o validation.json", "report ."}) {
-      EXPECT_TRUE(succeeded(run_process(awmr(step), directory.path()))) << step;
-    }
-    const Json page = looked_at(directory.path() / "report.html", 1280);
-    EXPECT_THAT(page.at("errors"), IsEmpty()) << page.at("errors");
-    return page.at("summary");
+    pages.push_back(report_on(model, directory.path() / std::to_string(pages.size())));
   };
-  const auto first_step = [](const Json& summary) {
-    return summary.at("steps").at(0).get<std::string>();
-  };
-  const Json plain = summary_with(nullptr);
-  EXPECT_EQ(plain.at("tones").at(0), "good");
-  EXPECT_THAT(first_step(plain), ::testing::HasSubstr("awmr_params.h"));
   const auto warning = [](const char* code) {
     return Json{{"file", "surge.csv"},
                 {"line", 0},
@@ -268,14 +280,31 @@ TEST_F(ReportInBrowser, BlockingFindingsAreTheFirstStepsAndTakeTheTickOfTheModel
                 {"code", code},
                 {"message", "an added finding"}};
   };
-  for (const char* code : {"no-interval", "model-inadequate", "power-law-inadequate"}) {
-    const Json summary = summary_with(warning(code));
-    EXPECT_EQ(summary.at("tones").at(0), "doubt") << code;
-    EXPECT_THAT(first_step(summary), ::testing::HasSubstr(code));
-    EXPECT_THAT(first_step(summary), ::testing::HasSubstr("identify again"));
-  }
+  const char* const codes[] = {"no-interval", "model-inadequate", "power-law-inadequate"};
+  Json model = Json::parse(read_all(file("model.json")));
+  for (const char* code : codes) add_report(model, warning(code));
+  add_report(model, nullptr);
   // A fit that has already used another family needs no remedy.
-  EXPECT_EQ(summary_with(warning("power-law-inadequate"), true).at("tones").at(0), "good");
+  model["yaw"]["family"] = "coulomb-power";
+  model["yaw"]["coulomb"] = {{"value", 1e-6}, {"std_error", nullptr}, {"ci95", nullptr},
+                             {"unit", "m"},   {"source", "fitted"},   {"method", "trajectory"}};
+  add_report(model, warning("power-law-inadequate"));
+  std::vector<Json> summaries;
+  for (const Json& page : looked_at(pages)) {
+    EXPECT_THAT(page.at("errors"), IsEmpty()) << page.at("errors");
+    summaries.push_back(page.at("summary"));
+  }
+  const auto first_step = [&](std::size_t i) {
+    return summaries[i].at("steps").at(0).get<std::string>();
+  };
+  for (std::size_t i = 0; i < std::size(codes); ++i) {
+    EXPECT_EQ(summaries[i].at("tones").at(0), "doubt") << codes[i];
+    EXPECT_THAT(first_step(i), ::testing::HasSubstr(codes[i]));
+    EXPECT_THAT(first_step(i), ::testing::HasSubstr("identify again"));
+  }
+  EXPECT_EQ(summaries[3].at("tones").at(0), "good");
+  EXPECT_THAT(first_step(3), ::testing::HasSubstr("awmr_params.h"));
+  EXPECT_EQ(summaries[4].at("tones").at(0), "good");
 }
 
 TEST_F(ReportInBrowser, OnAPhoneNothingIsWiderThanThePageAndItOpensShort) {
@@ -352,7 +381,7 @@ TEST_F(ReportInBrowser, TheLivePartComputesWhatTheCommandLineDoes) {
     fs::copy(file(name), tuned.path() / name);
   }
   write_all(tuned.path() / "tune.json", R"({"global_evaluations": 20, "local_evaluations": 10,
-    "draws": 2, "judged_draws": 4, "scenarios": ["scenario_c3_heading_steps.json"]})");
+    "draws": 2, "judged_draws": 4, "one_set": true, "scenarios": ["scenario_c3_heading_steps.json"]})");
   for (const char* step :
        {"tune --config tune.json --model model.json -o gains.json",
         "simulate --model model.json --gains gains.json --mode combined -o run.csv "

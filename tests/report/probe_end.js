@@ -1,5 +1,5 @@
 // Runs after the report's scripts: inspects the page as it opens, then opens and draws all of it.
-// Leaves the results as JSON in the attribute data-probe of the outermost page.
+// Leaves the results as JSON in the attribute data-probe of the page's frame.
 
 /// Converts the drawn shape back to the units of the axes.
 function drawnExtent(chart, name) {
@@ -140,7 +140,7 @@ addEventListener("load", () => {
       } catch (error) {
         probe.errors.push(`probe: ${error.message}`);
       }
-      top.document.documentElement.dataset.probe = JSON.stringify(probe);
+      frameElement.dataset.probe = JSON.stringify(probe);
     }, 300));
   });
 });
