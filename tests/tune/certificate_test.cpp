@@ -35,22 +35,32 @@ ConstraintContext context_of(const Model& model) {
           .motor_time_constant_s = c.motor_time_constant_s};
 }
 
-class CertificateOf : public ::testing::TestWithParam<TestVehicle> {};
-
+/// A vehicle's gains by pole placement and their certificate, which takes most of the test's time.
 /// Test parameters: a vehicle and the number of random points.
-class SampledCertificate : public ::testing::TestWithParam<std::tuple<TestVehicle, std::size_t>> {};
+class CertificateOf : public ::testing::TestWithParam<std::tuple<TestVehicle, std::size_t>> {
+ protected:
+  void expect_attained_at_the_place_that_it_names() const;
+  void expect_the_delay_margin_of_a_simulation_in_time() const;
+  void expect_no_better_than_random_points(std::size_t count) const;
 
-TEST_P(SampledCertificate, IsNoBetterThanAnyRandomPointOfTheSet) {
-  const auto& [vehicle, samples] = GetParam();
-  const std::size_t count = samples;
-  const Model model = model_of(vehicle);
-  const ConstraintContext context = context_of(model);
-  const Gains<double> gains = place_poles(context);
-  const Certificate certificate = certify(model, context, {}, gains).value();
-  const ConfidenceSet set = ConfidenceSet::make(model).value();
-  const Interval rates = examined_rates_radps(context);
-  ASSERT_EQ(certificate.modes.size(), yaw_modes(model.vehicle).size());
-  for (const ModeCertificate& one : certificate.modes) {
+  SampledHeadingLoop loop_at(const WorstCase& worst, YawMode mode) const {
+    Model there = model_;
+    for (const auto& [id, value] : worst.parameters) there[id].value = value;
+    return certified_loop(gains_, context_, there.plant().value(), worst.yaw_rate_radps, mode);
+  }
+
+ private:
+  const Model model_ = model_of(std::get<0>(GetParam()));
+  const ConstraintContext context_ = context_of(model_);
+  const Gains<double> gains_ = place_poles(context_);
+  const Certificate certificate_ = certify(model_, context_, {}, gains_).value();
+};
+
+void CertificateOf::expect_no_better_than_random_points(std::size_t count) const {
+  const ConfidenceSet set = ConfidenceSet::make(model_).value();
+  const Interval rates = examined_rates_radps(context_);
+  ASSERT_EQ(certificate_.modes.size(), yaw_modes(model_.vehicle).size());
+  for (const ModeCertificate& one : certificate_.modes) {
     std::vector<double> damping(count, 1.0);
     std::vector<double> margin_s(count, 1e9);
     parallel_for(count, 0, [&](std::size_t i) {
@@ -68,7 +78,7 @@ TEST_P(SampledCertificate, IsNoBetterThanAnyRandomPointOfTheSet) {
       const auto plant = set.plant_at(point);
       if (!plant) return;
       const double rate = rates.lo * std::pow(rates.hi / rates.lo, random.uniform());
-      const SampledHeadingLoop loop = certified_loop(gains, context, *plant, rate, one.mode);
+      const SampledHeadingLoop loop = certified_loop(gains_, context_, *plant, rate, one.mode);
       damping[i] = damping_ratio(loop);
       if (i < count / 4) margin_s[i] = delay_margin_s(loop);
     });
@@ -77,29 +87,13 @@ TEST_P(SampledCertificate, IsNoBetterThanAnyRandomPointOfTheSet) {
     EXPECT_GE(least_damping, one.damping.value - kCertificateTolerance);
     EXPECT_GE(least_margin_s, one.delay_margin_s.value * (1.0 - kCertificateTolerance));
     fmt::print("{}, {}: damping {:.4f} (sampled {:.4f}), delay margin {:.4f} s (sampled {:.4f})\n",
-               vehicle.name, name_of(one.mode), one.damping.value, least_damping,
+               model_.vehicle.name, name_of(one.mode), one.damping.value, least_damping,
                one.delay_margin_s.value, least_margin_s);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Short, SampledCertificate,
-                         ::testing::Combine(::testing::ValuesIn(test_vehicles()),
-                                            ::testing::Values(4'000U)));
-INSTANTIATE_TEST_SUITE_P(Long, SampledCertificate,
-                         ::testing::Combine(::testing::ValuesIn(test_vehicles()),
-                                            ::testing::Values(20'000U)));
-
-TEST_P(CertificateOf, IsAttainedAtThePlaceThatItNames) {
-  const Model model = model_of(GetParam());
-  const ConstraintContext context = context_of(model);
-  const Gains<double> gains = place_poles(context);
-  const Certificate certificate = certify(model, context, {}, gains).value();
-  const auto loop_at = [&](const WorstCase& worst, YawMode mode) {
-    Model there = model;
-    for (const auto& [id, value] : worst.parameters) there[id].value = value;
-    return certified_loop(gains, context, there.plant().value(), worst.yaw_rate_radps, mode);
-  };
-  for (const ModeCertificate& one : certificate.modes) {
+void CertificateOf::expect_attained_at_the_place_that_it_names() const {
+  for (const ModeCertificate& one : certificate_.modes) {
     EXPECT_NEAR(damping_ratio(loop_at(one.damping, one.mode)), one.damping.value, 1e-9);
     EXPECT_NEAR(delay_margin_s(loop_at(one.delay_margin_s, one.mode)), one.delay_margin_s.value,
                 1e-9);
@@ -140,17 +134,10 @@ double growth(const SampledHeadingLoop& loop, double delay_s, double time_s) {
   return at_end / early;
 }
 
-TEST_P(CertificateOf, HasTheDelayMarginOfASimulationInTime) {
-  const Model model = model_of(GetParam());
-  const ConstraintContext context = context_of(model);
-  const Gains<double> gains = place_poles(context);
-  const Certificate certificate = certify(model, context, {}, gains).value();
-  for (const ModeCertificate& one : certificate.modes) {
+void CertificateOf::expect_the_delay_margin_of_a_simulation_in_time() const {
+  for (const ModeCertificate& one : certificate_.modes) {
     const WorstCase& worst = one.delay_margin_s;
-    Model there = model;
-    for (const auto& [id, value] : worst.parameters) there[id].value = value;
-    const SampledHeadingLoop loop =
-        certified_loop(gains, context, there.plant().value(), worst.yaw_rate_radps, one.mode);
+    const SampledHeadingLoop loop = loop_at(worst, one.mode);
     // With a delay 5 % below or above the margin D, a pole is about 0.05 w D from the unit circle.
     // The motion decays or grows by a factor e in some 20/w; the simulated time has at least ten of
     // these.
@@ -160,7 +147,18 @@ TEST_P(CertificateOf, HasTheDelayMarginOfASimulationInTime) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(FromToyToTractor, CertificateOf, ::testing::ValuesIn(test_vehicles()));
+TEST_P(CertificateOf, IsTheWorstCaseOfTheSet) {
+  expect_attained_at_the_place_that_it_names();
+  expect_the_delay_margin_of_a_simulation_in_time();
+  expect_no_better_than_random_points(std::get<1>(GetParam()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Short, CertificateOf,
+                         ::testing::Combine(::testing::ValuesIn(test_vehicles()),
+                                            ::testing::Values(4'000U)));
+INSTANTIATE_TEST_SUITE_P(Long, CertificateOf,
+                         ::testing::Combine(::testing::ValuesIn(test_vehicles()),
+                                            ::testing::Values(20'000U)));
 
 SampledHeadingLoop plain_loop() {
   return {.lambda = 2.5,

@@ -131,6 +131,7 @@ TEST(Open, IsTheCauseIfRunsSettleWithoutIt) {
 
 TuneOptions short_search() {
   TuneOptions options;
+  options.one_set = true;
   options.global_evaluations = 60;
   options.local_evaluations = 20;
   options.evaluation_draws = 0;

@@ -557,6 +557,7 @@ std::pair<double, double> left_by_a_push(const Scenario& pushed, const Gains<dou
 TEST(Observed, AnObserverCompensatesAConstantDisturbance) {
   TuneOptions options;
   options.nominal = true;
+  options.one_set = true;
   options.global_evaluations = 80;
   options.local_evaluations = 60;
   options.observer.emplace();
@@ -596,6 +597,7 @@ TEST(Observed, IsComparedWithTheSameGainsWithoutObserver) {
   TuneOptions options;
   options.draws = 1;
   options.evaluation_draws = 10;
+  options.one_set = true;
   options.global_evaluations = 60;
   options.local_evaluations = 20;
   options.observer.emplace();
