@@ -756,7 +756,7 @@ TEST(LateLog, GivesNoIntervalToAServoThatIsFastForTheRows) {
   }
 }
 
-TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithAMotorLag) {
+TEST_P(LateLogs, EstimatesTheTimesOfChangesTogetherWithAMotorLag) {
   constexpr double kLag_s = 0.1;
   constexpr std::size_t kRowsHeld = 163;
   const Truth& t = kTruths[1];
@@ -773,7 +773,7 @@ TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithAMotorLag) {
   }
   TrialData data;
   data.logs = {std::move(log)};
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "changes-between-rows"));
   EXPECT_FALSE(has_finding(*result, "late-commands"));

@@ -250,7 +250,7 @@ TEST_F(Batch, IsTheRunOfSimulateOnFourTyresAfterAMinute) {
   for (const double friction : {0.3, 0.8, 1.1}) {
     scenario.tyres = Tyres<double>{.friction = friction};
     for (const YawMode mode : kYawModes) {
-      const std::vector<BatchRun> runs = drawn_runs(16, 0.2, mode);
+      const std::vector<BatchRun> runs = drawn_runs(8, 0.2, mode);
       const auto batch = batch_metrics(runs, scenario, batch_arithmetic().value());
       for (std::size_t i = 0; i < runs.size(); ++i) {
         const auto a = numbers_of(batch[i]);
@@ -315,8 +315,8 @@ TEST_F(Batch, EventsHappenAtTheSampleOfSimulate) {
 /// Parameters from a tenth to ten times the paper's. Exponents far above 1 need halved steps.
 TEST_F(Batch, IsTheRunOfSimulateFarBeyondThePapersVehicle) {
   const std::vector<BatchRun> runs = drawn_runs(16, std::log(10.0));
-  const Scenario open{"open", 3.0, {}, 0.0, OpenLoop{1.0, 0.05}};
-  const Scenario heading{"heading", 2.0, {}, 1.0, HeadingSteps{{{0.0, 0.5}, {1.0, -0.5}}}};
+  const Scenario open{"open", 1.5, {}, 0.0, OpenLoop{1.0, 0.05}};
+  const Scenario heading{"heading", 1.0, {}, 1.0, HeadingSteps{{{0.0, 0.5}, {0.5, -0.5}}}};
   Scenario lqi = heading;
   lqi.name = "LQI";
   lqi.control.lqi = {0.1, 0.3, 0.3, 0.02};
@@ -384,7 +384,7 @@ TEST_F(Batch, IsTheRunOfSimulateWithTunedFrictionWidths) {
       run.plant.yaw.coulomb = 0.01;
       run.controller = make_controller(run.plant, paper_vehicle(), gains);
     }
-    for (const Scenario& scenario : shipped_scenarios(30.0)) {
+    for (const Scenario& scenario : shipped_scenarios(15.0)) {
       const auto batch = batch_metrics(runs, scenario, batch_arithmetic().value());
       for (std::size_t i = 0; i < runs.size(); ++i) {
         expect_near(
@@ -419,8 +419,7 @@ TEST_F(Batch, HasTheSameBitsOnAllInstructions) {
   }
   // With 4 or 8 runs in a register, the last register is not full.
   const std::vector<BatchRun> runs = drawn_runs(11, 0.2);
-  for (const Scenario& scenario : shipped_scenarios()) {
-    if (scenario.duration_s > 150.0) continue;
+  for (const Scenario& scenario : shipped_scenarios(60.0)) {
     const auto first = batch_metrics(runs, scenario, arithmetics.front());
     for (std::size_t k = 1; k < arithmetics.size(); ++k) {
       const auto metrics = batch_metrics(runs, scenario, arithmetics[k]);

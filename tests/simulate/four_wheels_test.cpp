@@ -79,7 +79,7 @@ double net_power(const FourWheels<double>& vehicle, const RunRow& now, const Run
 }
 
 RC_GTEST_PROP(FourWheelRuns, WorkDoneIsKineticEnergyPlusWhatTheTyresTake, ()) {
-  Scenario scenario = open_loop(between(0.3, 2.0), between(-0.2, 0.2), 2.0);
+  Scenario scenario = open_loop(between(0.3, 2.0), between(-0.2, 0.2), 1.0);
   scenario.initial.u_mps = between(0.2, 1.5);
   scenario.initial.v_mps = between(-0.3, 0.3);
   scenario.initial.r_radps = between(-1.0, 1.0);
