@@ -63,14 +63,16 @@ class Check : public ::testing::Test {
     write(name, json);
     return awmr("check " + project());
   }
-  /// Runs `awmr run` on the project with a short search for gains and few simulated runs.
+  /// Runs `awmr run` on the project with a short search for gains of one mode and few simulated runs.
   ProcessResult run() {
-    write(
-        "tune.json",
-        {{"global_evaluations", 20}, {"local_evaluations", 10}, {"draws", 1}, {"judged_draws", 4}});
+    write("tune.json", {{"global_evaluations", 20},
+                        {"local_evaluations", 10},
+                        {"draws", 1},
+                        {"judged_draws", 4},
+                        {"mode", "combined"}});
     nlohmann::ordered_json json = read("project.json");
     json["tune"] = "tune.json";
-    json["compare"]["samples"] = 10;
+    json["compare"] = {{"scenarios", {"scenarios/heading_steps.json"}}, {"samples", 4}};
     write("project.json", json);
     return awmr("run " + path("project.json").string() + " -o " + path("out").string());
   }

@@ -166,16 +166,16 @@ std::string log_text(const std::string& header, double steering_deg) {
   double u = 0.0;
   double r = 0.0;
   const double inertia_norm = 0.5 * (0.6 * 0.6 + 0.5 * 0.5) / 12.0;
-  for (int i = 0; i < 3000; ++i) {
-    const int level = i / 150;
+  for (int i = 0; i < 1500; ++i) {
+    const int level = i / 75;
     const double mean = 0.1 + 0.08 * (level * 7 % 5);
     const double apart = 0.06 * (level * 3 % 5 - 2);
     const double left = mean - apart;
     const double right = mean + apart;
-    text += fmt::format("{:.2f},{},{},{:.5f},{:.5f}", 0.01 * i, left, right,
+    text += fmt::format("{:.2f},{},{},{:.5f},{:.5f}", 0.02 * i, left, right,
                         u + 0.004 * ((i * 37) % 11 - 5), r + 0.004 * ((i * 53) % 13 - 6));
     text += steering_deg != 0.0 ? fmt::format(",{}\n", steering_deg) : "\n";
-    for (int n = 0; n < 10; ++n) {
+    for (int n = 0; n < 20; ++n) {
       u += 0.001 * (2.0 * (left + right) - 1.2 * std::pow(std::max(u, 1e-6), 0.7)) / 0.5;
       const double g3 = 0.4 * std::pow(std::abs(r) + 1e-12, 0.9) * (r < 0.0 ? -1.0 : 1.0);
       r += 0.001 * (2.0 * kHalfTrack_m * (right - left) - g3) / inertia_norm;
@@ -187,7 +187,8 @@ std::string log_text(const std::string& header, double steering_deg) {
 TEST_F(DifferentialDrive, IsIdentifiedFromALogWithoutSteeringColumns) {
   write_all(path("log.csv"), log_text("t_s,force_left,force_right,speed_mps,yaw_rate_radps", 0.0));
   const std::string command = fmt::format(
-      "identify --vehicle {} --log {} --fit surge.alpha,surge.beta,yaw.alpha,yaw.beta,"
+      "identify --vehicle {} --log {} --family power --fit "
+      "surge.alpha,surge.beta,yaw.alpha,yaw.beta,"
       "mass_norm,inertia_norm -o {}",
       path("vehicle.json"), path("log.csv"), path("model.json"));
   const ProcessResult result = awmr(command);

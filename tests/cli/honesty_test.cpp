@@ -49,6 +49,7 @@ class Honesty : public ::testing::Test {
     Json turn =
         Json::parse(read_all(AWMR_SOURCE_DIR "/configs/paper/scenarios/c3_heading_steps.json"));
     turn["duration_s"] = 6;
+    turn["guidance"]["steps"][1]["t_s"] = 3;
     write_all(kept("turn.json"), turn.dump());
     write_all(kept("short.json"), R"({"global_evaluations": 20, "local_evaluations": 10,
                                       "mode": "combined", "scenarios": ["turn.json"]})");
@@ -253,7 +254,7 @@ TEST_F(Honesty, EmitRefusesToReplaceWhatItDidNotWrite) {
 }
 
 TEST_F(Honesty, ALogOfTheFitIsNoValidation) {
-  const std::string log = "datasets/synthetic/drive_1.csv";
+  const std::string log = first_rows_of("drive_1.csv");
   const ProcessResult fit =
       awmr(fmt::format("identify --vehicle configs/paper/vehicle.json {} --log {} -o {}", kTables,
                        log, path("model.json")));
@@ -328,9 +329,11 @@ TEST_F(Honesty, NoNumberDependsOnTheOrderOfFiles) {
     validation.erase("findings");
     checks.push_back(without_inputs(validation));
   }
-  const std::string scenarios = AWMR_SOURCE_DIR "/configs/paper/scenarios/";
-  const std::string steps[] = {scenarios + "c3_heading_steps.json",
-                               scenarios + "c13_heading_steps.json"};
+  Json slower = Json::parse(read_all(kept("turn.json")));
+  slower["name"] = "slower";
+  slower["speed_mps"] = 0.5;
+  write_all(path("slower.json"), slower.dump());
+  const std::string steps[] = {kept("turn.json"), path("slower.json")};
   for (const auto& list : {Json{steps[0], steps[1]}, Json{steps[1], steps[0]}}) {
     write_all(path("tune.json"), Json{{"global_evaluations", 20},
                                       {"local_evaluations", 10},

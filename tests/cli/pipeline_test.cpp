@@ -129,7 +129,7 @@ TEST_F(Pipeline, GivesTheSameBytesAgain) {
   const TemporaryDirectory one, two;
   write_all(one.path() / "tune.json",
             R"({"global_evaluations": 10, "local_evaluations": 5, "draws": 1, "judged_draws": 2,
-          "mode": "combined"})");
+          "mode": "combined", "scenarios": ["turn.json"]})");
   Json project =
       Json::parse(read_all(std::string(AWMR_SOURCE_DIR) + "/configs/paper/project.json"));
   const auto below_configs = [](Json& path) {
@@ -137,9 +137,11 @@ TEST_F(Pipeline, GivesTheSameBytesAgain) {
   };
   below_configs(project["vehicle"]);
   for (Json& trial : project["trials"]) below_configs(trial);
-  Json& scenarios = project["compare"]["scenarios"];
-  scenarios = Json::array({scenarios.front()});
-  below_configs(scenarios.front());
+  Json turn =
+      Json::parse(read_all(AWMR_SOURCE_DIR "/configs/paper/scenarios/c3_heading_steps.json"));
+  turn["duration_s"] = 6;
+  write_all(one.path() / "turn.json", turn.dump());
+  project["compare"]["scenarios"] = {(one.path() / "turn.json").string()};
   project["tune"] = (one.path() / "tune.json").string();
   write_all(one.path() / "project.json", project.dump());
   for (const TemporaryDirectory* folder : {&one, &two}) {

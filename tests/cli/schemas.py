@@ -90,15 +90,13 @@ def pipeline(folder):
     project["vehicle"] = "configs/paper/vehicle.json"
     project["trials"] = {name: path.removeprefix("../../") for name, path in project["trials"].items()}
     project["compare"]["scenarios"] = [c3]
-    Path(folder, "project.json").write_text(json.dumps({**project, "tune": "short.json"}))
+    Path(folder, "project.json").write_text(json.dumps({**project, "tune": "striving.json"}))
     prints = [
         awmr("run project.json -o out --json", folder),
         awmr("identify --vehicle configs/paper/vehicle.json --log datasets/synthetic/drive_1.csv "
              "-o driven.json --json", folder),
         awmr("validate --model driven.json --log datasets/synthetic/drive_2.csv -o logs.json --json", folder),
         awmr("tune --nominal --mode combined --config short.json --model out/model.json -o nominal.json --json", folder),
-        awmr("tune --model out/model.json --config striving.json -o striven.json --json", folder),
-        awmr(f"simulate --model out/model.json --gains striven.json --scenario {c3} --mode combined -o striven.csv --json", folder),
         awmr("suggest --model out/model.json -o suggest.json --json", folder),
         awmr("recover --model out/model.json --runs 5 -o recover.json --json", folder),
         awmr("map datasets/synthetic/drive_1.csv -o map.json --json", folder),

@@ -110,7 +110,7 @@ TEST_F(TunedGains, NoteKeysThatAFlagReplaces) {
 }
 
 TEST_F(TunedGains, NoteKeysAboutDrawsThatANominalSearchIgnores) {
-  ASSERT_EQ(tune("--nominal").exit_code, 0);
+  ASSERT_EQ(tune("--nominal --mode combined").exit_code, 0);
   const Json note = gains().at("findings").front();
   EXPECT_EQ(note.at("code"), "option-overrides");
   EXPECT_EQ(note.at("message"), "--nominal draws no vehicles, so draws of this file has no effect");
@@ -175,7 +175,7 @@ TEST_F(TunedGains, OfOneModeAreExaminedThereAndWarnElsewhere) {
 }
 
 TEST_F(TunedGains, CarryTheirCertificateIntoTheHeader) {
-  const ProcessResult run = tune("");
+  const ProcessResult run = tune("--one-set");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("worst case"));
   const Json certificate = gains().at("certificate");
