@@ -5,48 +5,45 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <iterator>
 #include <limits>
+#include <optional>
+#include <span>
 
 #include "awmr/core/statistics/sample_quantile.h"
 
 namespace awmr {
 namespace {
 
-using Complex = std::complex<double>;
-
 /// The readings of the rows. Rows that repeat the row before, other than of a vehicle at rest, repeat
 /// a slower sensor and are left out.
 struct OdometrySteps {
-  std::vector<double> step_s;     ///< [i]: time from reading i to i + 1
-  std::vector<Complex> integral;  ///< heading, rad, or position x + iy, m
-  std::vector<double> rate;       ///< yaw rate, rad/s, or speed, m/s
-  std::vector<double> direction;  ///< direction of the rate, rad; 0 for a yaw rate
+  std::vector<double> step_s;  ///< [i]: time from reading i to i + 1
+  std::vector<double> moved;   ///< [i]: turn, rad, or distance, m, from reading i to i + 1
+  std::vector<double> rate;    ///< yaw rate, rad/s, or magnitude of the speed, m/s
 };
 
-/// The readings of the log. The integral of `rate` in `direction` is compared with x + iy; without
-/// `y` and `direction`, with x. A step longer than three median steps is a gap, and counts as a
-/// median step.
-OdometrySteps readings_of(const DrivingLog& log, LogChannel x, std::optional<LogChannel> y,
-                          LogChannel rate, std::optional<LogChannel> direction) {
+/// The steps of `pose`, the heading or the position, and the readings of `rate` at the rows with
+/// both. A step longer than three median steps is a gap, and counts as a median step.
+OdometrySteps steps_of(const DrivingLog& log, std::span<const LogChannel> pose, LogChannel rate) {
   OdometrySteps found;
-  const auto value = [&](std::optional<LogChannel> channel, std::size_t row) {
-    return channel ? log[*channel]->value[row] : 0.0;
-  };
-  std::vector<double> times;
+  std::optional<std::size_t> last;
   for (std::size_t row = 0; row < log.rows(); ++row) {
-    const Complex integral{value(x, row), value(y, row)};
-    const double reading = value(rate, row);
-    const bool repeats =
-        row > 0 && integral == found.integral.back() && reading == found.rate.back();
-    if (repeats && reading != 0.0) continue;
-    times.push_back(log.t_s[row]);
-    found.integral.push_back(integral);
+    if (!log[rate]->fresh[row] && log.joined) continue;
+    const bool is_position = pose.size() > 1;
+    const double value = log[rate]->value[row];
+    const double reading = is_position ? std::abs(value) : value;
+    double moved = 0.0;
+    if (last) {
+      const auto change = [&](LogChannel c) { return log[c]->value[row] - log[c]->value[*last]; };
+      moved = is_position ? std::hypot(change(pose[0]), change(pose[1])) : change(pose[0]);
+      if (moved == 0.0 && reading == found.rate.back() && reading != 0.0) continue;
+      found.step_s.push_back(log.t_s[row] - log.t_s[*last]);
+      found.moved.push_back(moved);
+    }
     found.rate.push_back(reading);
-    found.direction.push_back(value(direction, row));
+    last = row;
   }
-  for (std::size_t i = 1; i < times.size(); ++i) found.step_s.push_back(times[i] - times[i - 1]);
   if (found.step_s.empty()) return found;
   const double usual_s = median(found.step_s);
   for (double& step_s : found.step_s) {
@@ -84,38 +81,30 @@ double odometry_noise(std::span<const double> values) {
 
 /// The rms of D - mean(D) (dead_reckoning.h) if the readings count from the `share` of each step
 /// on: 0 its begin, 1 its end.
-double difference_rms(const OdometrySteps& readings, double share, double direction_share) {
-  Complex difference;
-  Complex sum;
+double difference_rms(const OdometrySteps& steps, double share) {
+  double difference = 0.0;
+  double sum = 0.0;
   double squares = 0.0;
-  const std::size_t steps = readings.step_s.size();
-  for (std::size_t i = 0; i < steps; ++i) {
-    const double rate = std::lerp(readings.rate[i], readings.rate[i + 1], share);
-    const double direction =
-        std::lerp(readings.direction[i], readings.direction[i + 1], direction_share);
-    difference += readings.integral[i + 1] - readings.integral[i] -
-                  std::polar(1.0, direction) * (rate * readings.step_s[i]);
+  for (std::size_t i = 0; i < steps.moved.size(); ++i) {
+    const double rate = std::lerp(steps.rate[i], steps.rate[i + 1], share);
+    difference += steps.moved[i] - rate * steps.step_s[i];
     sum += difference;
-    squares += std::norm(difference);
+    squares += difference * difference;
   }
-  const auto count = static_cast<double>(steps);
-  return std::sqrt(std::max(0.0, squares / count - std::norm(sum / count)));
+  const auto count = static_cast<double>(steps.moved.size());
+  return std::sqrt(std::max(0.0, squares / count - std::pow(sum / count, 2)));
 }
 
-/// True if the readings are an integral (dead_reckoning.h).
-bool is_integral(const OdometrySteps& readings) {
+/// True if the pose is an integral of the readings (dead_reckoning.h).
+bool is_integral(const OdometrySteps& steps) {
   constexpr std::size_t kMinReadings = 100;
   constexpr double kMuchLess = 0.2;
-  if (readings.rate.size() < kMinReadings) return false;
+  if (steps.rate.size() < kMinReadings) return false;
   double squares = 0.0;
-  for (const double step_s : readings.step_s) squares += step_s * step_s;
-  const double limit = kMuchLess * odometry_noise(readings.rate) * std::sqrt(squares / 6.0);
-  constexpr std::array kShares{0.0, 0.5, 1.0};
-  return std::ranges::any_of(kShares, [&](double share) {
-    return std::ranges::any_of(kShares, [&](double direction_share) {
-      return difference_rms(readings, share, direction_share) < limit;
-    });
-  });
+  for (const double step_s : steps.step_s) squares += step_s * step_s;
+  const double limit = kMuchLess * odometry_noise(steps.rate) * std::sqrt(squares / 6.0);
+  return std::ranges::any_of(std::array{0.0, 0.5, 1.0},
+                             [&](double share) { return difference_rms(steps, share) < limit; });
 }
 
 void note_dead_reckoning(const DrivingLog& log, std::string_view columns, std::string_view sources,
@@ -130,17 +119,17 @@ void note_dead_reckoning(const DrivingLog& log, std::string_view columns, std::s
 }  // namespace
 
 void set_aside_dead_reckoning(DrivingLog& log, std::vector<Finding>& findings) {
+  constexpr std::array kPosition{LogChannel::kX, LogChannel::kY};
+  constexpr std::array kHeading{LogChannel::kHeading};
   const auto has = [&](LogChannel channel) { return log[channel].has_value(); };
-  if (!has(LogChannel::kHeading)) return;
   if (has(LogChannel::kX) && has(LogChannel::kY) && has(LogChannel::kSpeed) &&
-      is_integral(readings_of(log, LogChannel::kX, LogChannel::kY, LogChannel::kSpeed,
-                              LogChannel::kHeading))) {
-    note_dead_reckoning(log, "x_m, y_m", "speed_mps in the direction of heading_deg", findings);
+      is_integral(steps_of(log, kPosition, LogChannel::kSpeed))) {
+    note_dead_reckoning(log, "x_m, y_m", "speed_mps", findings);
     log[LogChannel::kX].reset();
     log[LogChannel::kY].reset();
   }
-  if (has(LogChannel::kYawRate) &&
-      is_integral(readings_of(log, LogChannel::kHeading, {}, LogChannel::kYawRate, {}))) {
+  if (has(LogChannel::kHeading) && has(LogChannel::kYawRate) &&
+      is_integral(steps_of(log, kHeading, LogChannel::kYawRate))) {
     note_dead_reckoning(log, "heading_deg", "yaw_rate_radps", findings);
     log[LogChannel::kHeading].reset();
   }

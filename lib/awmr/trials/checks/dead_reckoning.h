@@ -9,11 +9,12 @@
 namespace awmr {
 
 /// Removes channels from `log` that only repeat others, and adds the finding `dead-reckoning`: the
-/// heading, if it is the integral of the yaw rate, and the position, if it is the integral of the
-/// speed in the direction of the heading. As measurements, they would count the same readings
-/// twice, and a position that knows no sideslip would contradict the motion of the vehicle.
+/// heading, if it is the integral of the yaw rate, and the position, if the distance that it moves
+/// is the integral of the speed. As measurements, they would count the same readings twice, and a
+/// position that knows no sideslip would contradict the motion of the vehicle.
 ///
-/// A channel is an integral if its difference D from the integral of the readings w stays small:
+/// A pose is an integral if the difference D between its turns (distances) and the integral of the
+/// yaw rate (speed) stays small:
 ///
 ///     rms(D - mean(D)) < 0.2 s sqrt(sum(h^2)/6)
 ///
