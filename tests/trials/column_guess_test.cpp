@@ -131,6 +131,27 @@ TEST(GuessColumns, AServosPulseIsNoAngle) {
                           "unsure steering_cmd_deg=(servo_us - 1500)/500*20"));
 }
 
+TEST(GuessColumns, ARisingTimeIsTakenFromItsNameAndUnit) {
+  EXPECT_THAT(guesses_of("TimeUS,a\n0,1\n100000,1\n"), ElementsAre("likely t_s=TimeUS*1e-06"));
+  EXPECT_THAT(guesses_of("ms_today,a\n5,1\n25,1\n"), ElementsAre("likely t_s=ms_today*0.001"));
+  EXPECT_THAT(guesses_of("t,a\n0,1\n0.1,1\n"), ElementsAre("unsure t_s=t"));
+  EXPECT_THAT(guesses_of("t,a\n0.1,1\n0,1\n"), IsEmpty()) << "a time rises";
+}
+
+TEST(GuessColumns, OneCommandIsTheForceOfBothSides) {
+  EXPECT_THAT(
+      guesses_of("throttle_pct,battery_voltage\n10,12\n20,12\n"),
+      ElementsAre("unsure force_left=throttle_pct*0.01", "unsure force_right=throttle_pct*0.01"));
+  EXPECT_THAT(guesses_of("duty_left,duty_right,throttle\n0.1,0.2,1\n"),
+              ElementsAre("likely force_left=duty_left", "likely force_right=duty_right"));
+}
+
+TEST(GuessColumns, AGyroscopeIsNoHeadingAndAPulseIsACommand) {
+  EXPECT_THAT(guesses_of("gyroYaw,SteeringPWM\n1,1500\n-2,1700\n"),
+              ElementsAre("unsure yaw_rate_radps=gyroYaw",
+                          "unsure steering_cmd_deg=(SteeringPWM - 1500)/500*20"));
+}
+
 TEST(GuessColumns, TwoThatFitAreBothUnsure) {
   EXPECT_THAT(
       guesses_of("speed_kmh,gps_speed_mps\n1,2\n"),

@@ -157,6 +157,27 @@ bool increases(const std::vector<double>& values) {
          std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end();
 }
 
+/// Adds a guess for the first column whose values rise and whose name has a word for a time or
+/// begins with a unit of time: `TimeUS`, `ms_today`, `t`. Without a unit, assumes seconds.
+void add_named_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
+  static const std::set<std::string> kClock{"t",     "time",    "timestamp", "stamp",
+                                            "clock", "elapsed", "duration"};
+  for (std::size_t i = 0; i < sample.names.size(); ++i) {
+    const Words words = words_of(sample.names[i]);
+    const auto first_unit = unit_in({words.front()}, Dimension::kTime);
+    const bool is_time = has_any(words, kClock) || first_unit;
+    const auto unit = first_unit ? first_unit : unit_in(words, Dimension::kTime);
+    if (!is_time || !increases(sample.values[i])) continue;
+    guesses.push_back({std::string(kTimeName),
+                       times(quoted(sample.names[i]), unit ? unit->factor : 1.0),
+                       unit ? Confidence::kLikely : Confidence::kUnsure,
+                       unit ? "the name has a unit of time, and the values rise"
+                            : "the values rise, and the name has no unit; seconds are assumed",
+                       first_of(sample.values[i])});
+    return;
+  }
+}
+
 void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   const auto time = find_time(sample.names, sample.texts);
   if (!time) {
@@ -166,16 +187,7 @@ void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
                        (*time)->meaning + "; it is also read without a mapping"});
   }
   if (!guesses.empty()) return;
-  // A column with only a unit as its name counts as time only if its values rise in every row.
-  // Speeds do not, and `ms` may also mean m/s.
-  for (std::size_t i = 0; i < sample.names.size(); ++i) {
-    const Words words = words_of(sample.names[i]);
-    const auto unit = unit_in(words, Dimension::kTime);
-    if (!unit || words.size() > 1 || !increases(sample.values[i])) continue;
-    guesses.push_back({std::string(kTimeName), times(quoted(sample.names[i]), unit->factor),
-                       Confidence::kLikely, "the name is a unit of time, and the values rise",
-                       first_of(sample.values[i])});
-  }
+  add_named_time(sample, guesses);
 }
 
 /// Index of the file's column that the guess uses; empty for a formula of several columns.
@@ -319,6 +331,25 @@ void add_difference_of_wheels(const FileSample& sample, std::optional<double> tr
   }
 }
 
+/// Adds guesses for the force of one side from columns without a side, such as `throttle_pct`: one
+/// command for all motors.
+void add_common_force(const std::string& column, const FileSample& sample,
+                      std::vector<ColumnGuess>& guesses) {
+  static const std::set<std::string> kOfBattery{"voltage", "volts",   "power", "input",
+                                                "supply",  "battery", "batt",  "bat"};
+  for (std::size_t i = 0; i < sample.names.size(); ++i) {
+    const Words words = words_of(sample.names[i]);
+    const auto dimension = dimension_as(TrialKind::kSurge, "wheel_force", words);
+    if (!dimension || has_any(words, kOfBattery) ||
+        dimension_as(TrialKind::kLog, "steering_cmd_deg", words)) {
+      continue;
+    }
+    Scale scale = scale_of(quoted(sample.names[i]), words, *dimension, sample.values[i]);
+    guesses.push_back({column, std::move(scale.expression), Confidence::kUnsure,
+                       "one command for both sides; " + scale.why, first_of(sample.values[i])});
+  }
+}
+
 /// Guesses which columns of the sample provide awmr's column `column`. `track_m`: as in
 /// guess_columns().
 std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample& sample,
@@ -343,6 +374,7 @@ std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample&
   if (!guesses.empty()) return guesses;
   if (column == kTimeName) add_time(sample, guesses);
   if (kind != TrialKind::kLog) return guesses;
+  if (column == "force_left" || column == "force_right") add_common_force(column, sample, guesses);
   if (column == "speed_mps") add_mean_of_wheels(sample, guesses);
   if (column == "yaw_rate_radps") add_difference_of_wheels(sample, track_m, guesses);
   return guesses;

@@ -24,8 +24,8 @@ const std::set<std::string> kSpeedWords{"speed", "velocity", "vel", "v", "vx", "
 const std::set<std::string> kClockWords{"t", "time", "elapsed", "duration", "clock"};
 
 std::vector<Rule> log_rules() {
-  static const std::set<std::string> kCommand{"cmd",     "command", "setpoint", "sp",
-                                              "desired", "target",  "ref",      "reference"};
+  static const std::set<std::string> kCommand{"cmd",    "command", "setpoint",  "sp",  "desired",
+                                              "target", "ref",     "reference", "pwm", "pulse"};
   static const std::set<std::string> kAcceleration{"acc",  "accel", "acceleration",
                                                    "jerk", "time",  "covariance"};
   static const std::set<std::string> kNoPosition{
@@ -36,8 +36,8 @@ std::vector<Rule> log_rules() {
       {"x_m", {{"x", "px", "east"}}, kNoPosition, Dimension::kLength},
       {"y_m", {{"y", "py", "north"}}, kNoPosition, Dimension::kLength},
       {"heading_deg",
-       {{"heading", "yaw", "psi", "course", "hdg"}},
-       {"rate", "speed", "dot"},
+       {{"heading", "yaw", "psi", "course", "hdg", "compass", "theta"}},
+       {"rate", "speed", "dot", "gyr", "gyro"},
        Dimension::kAngle},
       {"speed_mps",
        {kSpeedWords},
