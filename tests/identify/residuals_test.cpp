@@ -41,6 +41,10 @@ LogFitOptions options_with(const Truth& t, const std::vector<FreeTerm>& terms) {
   guess[at(ParameterId::kSteeringTimeConstant)] = 0.1;
   options.free = {ParameterId::kMassNorm, ParameterId::kInertiaNorm};
   options.terms = terms;
+  const auto is_run_on = [](const FreeTerm& term) {
+    return term.quantity.is(FreeQuantity::Kind::kRunOn);
+  };
+  if (std::ranges::any_of(terms, is_run_on)) guess[at(ParameterId::kBackEmf)] = 0.2;
   return options;
 }
 
@@ -193,6 +197,9 @@ INSTANTIATE_TEST_SUITE_P(
                   {free_term(FreeQuantity::Kind::kDelay), 0.023},
                   {free_term(FreeQuantity::Kind::kMotorLag), 0.047},
                   {free_term(FreeQuantity::Kind::kForceImbalance), 0.06}}},
+        TermCase{"RunOn",
+                 {{free_term(FreeQuantity::Kind::kMotorLag), 0.12},
+                  {free_term(FreeQuantity::Kind::kRunOn), 0.6}}},
         TermCase{"DeadZoneDifference",
                  {{free_term(FreeQuantity::Kind::kDeadZoneDifference), 0.03}}},
         TermCase{

@@ -26,6 +26,7 @@ inline constexpr std::string_view kForceFallName = "motor.fall_time_s";
 inline constexpr std::string_view kForceExponentName = "motor.exponent";
 inline constexpr std::string_view kForceSaturationName = "motor.saturation";
 inline constexpr std::string_view kSupplySagName = "motor.supply_sag";
+inline constexpr std::string_view kRunOnName = "motor.run_on";
 inline constexpr std::string_view kForceScaleName = "motor.force_scale";
 inline constexpr std::string_view kResistanceScalePrefix =
     "resistance_scale.";  ///< followed by the column name of the speed or yaw rate

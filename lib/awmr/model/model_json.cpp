@@ -35,7 +35,7 @@ bool is_estimated_name(std::string_view name) {
          name == kSteeringScaleName || name == kServoRateName || name == kForceImbalanceName ||
          name == kDeadZoneDifferenceName || name == kForceExponentName || name == kForceRiseName ||
          name == kForceFallName || name == kForceSaturationName ||
-         name == kSaturationSharpnessName || name == kSupplySagName ||
+         name == kSaturationSharpnessName || name == kSupplySagName || name == kRunOnName ||
          name.starts_with(kForceScaleName) || name.starts_with(kResistanceScalePrefix) ||
          name == kSwayOffsetName || name == kSwayAngleName || name == kSpeedOffsetName ||
          name == kPositionAheadName || name == kPositionLeftName || name == kCompassSinName ||

@@ -87,14 +87,14 @@ std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
   return requested;
 }
 
-/// Limit of the work of all searches (Effort): about half a minute on a processor of 2023, more for
-/// long logs. For short logs, the limit is about 6000 evaluations, so that a search that does not
+/// Limit of the work of all searches (Effort): about 50 s on a processor of 2023, more for
+/// long logs. For short logs, the limit is about 10 000 evaluations, so that a search that does not
 /// converge stops early. A log that the model describes well needs a tenth of this. Several logs
 /// multiply the limit by their number, because the differences between them are searched too.
 std::int64_t effort_limit(const std::vector<DrivingLog>& logs) {
-  constexpr double kUsualEffort = 6e8;
+  constexpr double kUsualEffort = 1e9;
   constexpr double kPerSecond = 1e6;  // additional work per second of log
-  constexpr double kEvaluations = 6000.0;
+  constexpr double kEvaluations = 10000.0;
   constexpr double kUsualColumns = 20.0;
   constexpr double kStep_s = 0.01;
   double duration_s = 0.0;

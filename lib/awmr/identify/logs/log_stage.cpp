@@ -291,6 +291,12 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::vecto
   }
 }
 
+/// Adds findings that name the cause of a model error, before the finding `model-inadequate`.
+void add_cause(const std::vector<Finding>& causes, LogStage& stage) {
+  stage.findings.insert(std::ranges::find(stage.findings, "model-inadequate", &Finding::code),
+                        causes.begin(), causes.end());
+}
+
 /// Compares the logs with each other, or the halves of a single log. Adds a finding for each
 /// disagreement, and withdraws the intervals if necessary.
 void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogStage& stage) {
@@ -303,10 +309,7 @@ void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogSt
       stage.withdraws_intervals || compared.missed || saturates ||
       std::ranges::any_of(compared.disagreements, &LogDisagreement::withdraws);
   // A difference between the logs is a cause of a model error, so it is reported first.
-  const std::vector<Finding> differences =
-      in_words(compared.disagreements, stage.withdraws_intervals);
-  stage.findings.insert(std::ranges::find(stage.findings, "model-inadequate", &Finding::code),
-                        differences.begin(), differences.end());
+  add_cause(in_words(compared.disagreements, stage.withdraws_intervals), stage);
   if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
 }
 
@@ -394,7 +397,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   take(chosen.fit, model, overrule, logs, stage);
   if (has_changed) doubt_force_terms(stage.findings);
   append(stage.findings, refused_terms(chosen.fit, options.terms, file));
-  if (speed_control) stage.findings.push_back(speed_control_finding(*speed_control, file));
+  if (speed_control) add_cause({speed_control_finding(*speed_control, file)}, stage);
   check_inertia(vehicle, logs, model, stage);
   return stage;
 }

@@ -252,6 +252,7 @@ LogComparison compare_parts(const std::vector<DrivingLog>& log, const LogFitOpti
   const std::vector<double> by_all = common.fit.coordinates;
   found.disagreements =
       disagreements_of({first.name, second.name}, {by_first, fit_part(second, options)}, common);
+  for (LogDisagreement& one : found.disagreements) one.withdraws = invalidates_all(one.name);
   if (!found.disagreements.empty() || !last_fifth || !(last_fifth->p_value < kMiss)) return found;
   // A second test may acquit only a fit without model error.
   const auto p_value = common.fit.has_model_error()

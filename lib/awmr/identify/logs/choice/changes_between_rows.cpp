@@ -187,7 +187,7 @@ UncertainTimes uncertain_times(const LogProblem& problem, const SearchPoint& poi
 /// Options of a fit with unknown times of the changes. The fit begins at the stopped fit `at_rows`,
 /// with its back-EMF, and with its motor lag if that is above `step_s`, the row spacing. Wrong
 /// times of the changes can cause delays and shorter lags, so those of `at_rows` are left out. The
-/// terms of its families are left out, too: the new fit begins with the families of `power_law`.
+/// terms of its families begin at the values of `power_law`.
 LogFitOptions options_from(const FamilyFit& at_rows, const LogFitOptions& power_law,
                            double step_s) {
   LogFitOptions from = with_back_emf_as_in(at_rows, power_law);
@@ -199,12 +199,16 @@ LogFitOptions options_from(const FamilyFit& at_rows, const LogFitOptions& power_
   constexpr std::size_t kServo = at(ParameterId::kSteeringTimeConstant);
   from.initial_guess[kServo] = power_law.initial_guess[kServo];
   const std::vector<FreeQuantity>& quantities = at_rows.fit.quantities;
+  const auto lag_s = at_rows.fit.value_of(FreeQuantity::Kind::kMotorLag);
+  if (!lag_s || !(*lag_s > step_s)) return from;
   for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const FreeQuantity::Kind kind = quantities[i].kind;
     const bool is_requested = std::ranges::any_of(
-        from.terms, [&](const FreeTerm& term) { return term.quantity.kind == quantities[i].kind; });
-    if (quantities[i].kind != FreeQuantity::Kind::kMotorLag || is_requested) continue;
-    const double coordinate = at_rows.fit.coordinates[i];
-    if (quantities[i].value(coordinate) > step_s) from.terms.push_back({quantities[i], coordinate});
+        from.terms, [&](const FreeTerm& term) { return term.quantity.kind == kind; });
+    const bool is_of_lag =
+        kind == FreeQuantity::Kind::kMotorLag || kind == FreeQuantity::Kind::kRunOn;
+    if (!is_of_lag || is_requested) continue;
+    from.terms.push_back({quantities[i], at_rows.fit.coordinates[i]});
   }
   return from;
 }
@@ -274,9 +278,9 @@ bool are_times_between_rows(const std::vector<double>& times) {
 
 FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const IdentifyOptions& options) {
-  // The fit with unknown times may use a third of the remaining work (Effort). If this fit is
+  // The fit with unknown times may use half of the remaining work (Effort). If this fit is
   // rejected, the rest is enough for the fits that follow.
-  constexpr std::int64_t kEffortShare = 3;
+  constexpr std::int64_t kEffortShare = 2;
   LogFitOptions tests = power_law;
   tests.tests_changes = std::ranges::none_of(logs, [](const DrivingLog& log) {
     return log.has_interpolated_commands || log.has_held_set_points;
@@ -287,7 +291,7 @@ FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
   FirstFit between{with_changes_between_rows(logs), {}, {}};
   LogFitOptions from = options_from(at_rows, power_law, logs.front().median_step_s());
   from.effort = std::make_shared<Effort>(power_law.effort->left() / kEffortShare);
-  between.fit = fit_first_family(between.logs, from, options);
+  between.fit = fit_first_family(between.logs, from, options, {at_rows.surge, at_rows.yaw});
   std::vector<FamilyFit> others = fits_at_rows(between.fit, logs, power_law);
   between.fit.options.effort = power_law.effort;
   const bool is_usable =

@@ -259,14 +259,19 @@ class TermTrials {
   /// `found_s`: command delay, s, of the trial that has a delay but no motor lag. Makes up to two
   /// more trials, because a motor lag may have caused this delay: one with a motor lag and a delay,
   /// and, if `found_s` is positive, one with a motor lag alone. (A delay is negative if the time
-  /// stamps of the commands are late.)
+  /// stamps of the commands are late.) With back-EMF, also one in which the force decays with the
+  /// lag after a command of 0 (kRunOn).
   void consider_motor_lag(double found_s) {
     if (has_motor_lag(settled_.problem.model)) return;
     const FreeQuantity delay = free_term(Kind::kDelay);
     const FreeQuantity lag = free_term(Kind::kMotorLag);
     const double lag_s = 0.5 * std::abs(found_s);
     lowest_.consider(trial({{delay, found_s - lag_s}, {lag, lag_s}}));
-    if (found_s > 0.0) lowest_.consider(trial({{lag, found_s}}));
+    if (!(found_s > 0.0)) return;
+    lowest_.consider(trial({{lag, found_s}}));
+    if (!has(settled_.problem.model.quantities, ParameterId::kBackEmf)) return;
+    constexpr double kShare = 0.5;  // initial guess
+    lowest_.consider(trial({{lag, found_s}, {free_term(Kind::kRunOn), kShare}}), kLikelierFilter);
   }
 
   /// True if a mean with this delay, half of the averaging time, is plausible (may_be_mean()).

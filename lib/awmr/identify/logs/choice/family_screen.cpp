@@ -99,6 +99,9 @@ std::vector<FreeTerm> promising_terms(const std::vector<DrivingLog>& logs, const
   return terms;
 }
 
+/// Initial guess of the share of the force that remains when a command becomes 0 (kRunOn).
+constexpr double kRunOnBegin = 0.5;
+
 /// Returns the models to try next. Each changes the family of an open axis, or adds one of `terms`,
 /// or adds back-EMF if it is a candidate term.
 std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
@@ -109,7 +112,12 @@ std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
     if (!open.has(of_yaw)) continue;
     for (const Families& other : other_families(families, of_yaw)) neighbours.push_back({other});
   }
-  for (const FreeTerm& term : terms) neighbours.push_back({families, {term}});
+  for (const FreeTerm& term : terms) {
+    neighbours.push_back({families, {term}});
+    const bool is_lag = term.quantity.is(Kind::kMotorLag);
+    if (!is_lag || !fit.options.frees(ParameterId::kBackEmf)) continue;
+    neighbours.push_back({families, {term, {free_term(Kind::kRunOn), kRunOnBegin}}});
+  }
   if (contains(fit.options.candidate_terms, ParameterId::kBackEmf)) {
     neighbours.push_back({.families = families, .has_back_emf = true});
   }

@@ -222,6 +222,11 @@ void add_motors(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   add_term(problem, Kind::kForceImbalance, has_difference, found);
   add_term(problem, Kind::kDeadZoneDifference,
            has_difference && has(quantities, ParameterId::kWheelDeadZone), found);
+  const LogModel& model = problem.model;
+  const bool has_lag = model.vehicle.motor_time_constant_s || has(quantities, Kind::kMotorLag);
+  const bool has_back_emf =
+      has(quantities, ParameterId::kBackEmf) || model.held[at(ParameterId::kBackEmf)] > 0.0;
+  add_term(problem, Kind::kRunOn, has_lag && has_back_emf, found);
   const double full_command = largest_command(problem);
   if (full_command > 0.0) add_ramps(quantities, found);
   // A fit contains only one of an exponent, a saturation and a supply sag of the forces. Together
@@ -291,10 +296,13 @@ std::vector<std::string> requestable_terms() {
 }
 
 std::vector<std::string> automatic_terms() {
-  std::vector<std::string> names{
-      std::string(kServoRateName),          std::string(kSteeringScaleName),
-      std::string(kForceSaturationName),    std::string(kSupplySagName),
-      std::string(kDeadZoneDifferenceName), std::string(kSaturationSharpnessName)};
+  std::vector<std::string> names{std::string(kServoRateName),
+                                 std::string(kSteeringScaleName),
+                                 std::string(kForceSaturationName),
+                                 std::string(kSupplySagName),
+                                 std::string(kDeadZoneDifferenceName),
+                                 std::string(kSaturationSharpnessName),
+                                 std::string(kRunOnName)};
   for (const LogChannel channel : kChannels) {
     if (!is_often_filtered(channel)) continue;
     names.push_back(free_term(Kind::kLagDamping, channel).name());

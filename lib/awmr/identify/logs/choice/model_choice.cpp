@@ -101,11 +101,11 @@ FamilyFit refined(const std::vector<DrivingLog>& logs, const LogFitOptions& powe
 }
 
 FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                           const IdentifyOptions& options) {
+                           const IdentifyOptions& options, const Families& begin) {
   show_step(options, "fitting the logs");
   announce(options, numbers_of_first_fit(logs, power_law), "fitting logs of this length");
-  const Family surge = options.surge_family.family.value_or(Family::kPower);
-  const Family yaw = options.fitted_yaw_family().family.value_or(Family::kPower);
+  const Family surge = options.surge_family.family.value_or(begin.surge);
+  const Family yaw = options.fitted_yaw_family().family.value_or(begin.yaw);
   const OpenAxes open = open_axes(power_law, options);
   if (!open.any()) return fit_family(logs, power_law, surge, yaw);
   LogFitOptions first = with_optional_coulomb(power_law, options, surge, yaw);

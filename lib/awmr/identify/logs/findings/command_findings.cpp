@@ -430,6 +430,16 @@ std::string sag_text(const FoundTerm& loss, const LogFit& fit) {
       loss.quantity.full_command, 100.0 * loss.value, 100.0 * loss.error, without_intervals(fit));
 }
 
+std::string run_on_text(const FoundTerm& share, const LogFit& fit) {
+  return fmt::format(
+      "{:.0f} +- {:.0f} % of the force of a motor remain when its command becomes 0, and then "
+      "decay "
+      "with the motor's lag. The fit compensates for this{}, but simulations and tuned gains "
+      "assume "
+      "that the force ends at once",
+      100.0 * share.value, 100.0 * share.error, without_intervals(fit));
+}
+
 std::string ramp_text(const FoundTerm& time, const LogFit&) {
   return fmt::format(
       "the force of a motor {} by at most {:.2f} +- {:.2f} of F_max per second: a controller ramps "
@@ -470,7 +480,8 @@ constexpr TermFinding kTermFindings[] = {
     {Kind::kDeadZoneDifference, "unequal-dead-zones", dead_zones_text},
     {Kind::kForceExponent, "force-saturation", exponent_text},
     {Kind::kForceSaturation, "force-saturation", saturation_text},
-    {Kind::kSupplySag, "force-saturation", sag_text}};
+    {Kind::kSupplySag, "force-saturation", sag_text},
+    {Kind::kRunOn, "motor-run-on", run_on_text}};
 
 }  // namespace
 

@@ -74,6 +74,7 @@ constexpr KindInfo kKinds[] = {
     {kForceSaturationName, {0.0, 0.95}},
     {kSaturationSharpnessName, {1.0, 20.0}, 1.0, Scale::kLogarithmic},
     {kSupplySagName, {0.0, 0.5}},
+    {kRunOnName, {0.0, 1.0}},
     {kForceScaleName, {-0.9, 5.0}},
     {kResistanceScalePrefix, {-0.9, 20.0}},
     {"", {}},

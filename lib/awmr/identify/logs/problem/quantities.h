@@ -78,6 +78,10 @@ struct FreeQuantity {
     ///
     /// (times F_max).
     kSupplySag,
+    /// Share k, in [0, 1], of the force of a motor with back-EMF that remains when its command
+    /// becomes 0, and then decays with the lag of the motor, without back-EMF. 0: the force ends at
+    /// once.
+    kRunOn,
     /// Scale error e of the forces of one log: its wheel forces are 1 + e times their commands, for
     /// example because of a lower battery voltage than in the first log (log_terms.h).
     kForceScale,

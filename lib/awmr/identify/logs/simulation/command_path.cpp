@@ -181,16 +181,22 @@ DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
   return at;
 }
 
-/// For each side whose command is 0, sets the force and its derivatives with respect to the columns
-/// to 0, if the motors switch off (CommandPath::switches_off).
-void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
-  const auto off = [&](double SideForces<double>::*side) {
+/// For each side whose command is 0, multiplies the force and its derivatives with respect to the
+/// columns by the share that remains (kRunOn), if the motors switch off
+/// (CommandPath::switches_off).
+void switch_off(const SideForces<double>& command, const CommandPath& path,
+                DelayedCommand& at_wheels) {
+  const double share = path.terms.value(Kind::kRunOn);
+  const auto off = [&](double SideForces<double>::*side, bool SideForces<bool>::*is_off) {
     if (command.*side != 0.0) return;
-    at_wheels.command.force.*side = 0.0;
-    for (HeldCommand& by : at_wheels.by.of_kind) by.force.*side = 0.0;
+    at_wheels.command.is_off.*is_off = true;
+    double& force = at_wheels.command.force.*side;
+    scale_derivatives(share, side, at_wheels);
+    at_wheels.by[Kind::kRunOn].force.*side = force;
+    force *= share;
   };
-  off(&SideForces<double>::left);
-  off(&SideForces<double>::right);
+  off(&SideForces<double>::left, &SideForces<bool>::left);
+  off(&SideForces<double>::right, &SideForces<bool>::right);
 }
 
 }  // namespace
@@ -241,7 +247,7 @@ DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, d
   DelayedCommand at{logged};
   set_mean_forces(signals, t_s, h_s, path, at);
   at.change_column = path.last_change_column(rows.forces);
-  if (path.switches_off) switch_off(logged.force, at);
+  if (path.switches_off) switch_off(logged.force, path, at);
   return with_errors(at, path);
 }
 

@@ -65,8 +65,8 @@ struct CommandPath {
   /// limits the angle.
   bool stop_limits_command = false;
   double full_command = 1.0;  ///< largest command F'm of the logs
-  /// True for motors with back-EMF: a motor whose command is 0 gives no force, although the lag of
-  /// earlier commands would still give one.
+  /// True for motors with back-EMF: a motor whose command is 0 has no back-EMF and no force (or
+  /// kRunOn times the force that the lag of earlier commands gives).
   bool switches_off = false;
 
   /// Changes of the commands at uncertain times, in the order of their rows. The column of the time

@@ -12,7 +12,8 @@ namespace {
 WheelForce wheel_force(double command, double zone) {
   if (command > zone) return {command - zone, 1.0, -1.0};
   if (command < -zone) return {command + zone, 1.0, 1.0};
-  return {0.0, 0.0, 0.0};
+  const double slope = zone > 0.0 ? 0.0 : 1.0;  // without a dead zone, the force follows from 0 on
+  return {0.0, slope, 0.0};
 }
 
 /// Multiplies the force of a wheel by 1 + e_b if it acts against the motion of its side, and by 1 +

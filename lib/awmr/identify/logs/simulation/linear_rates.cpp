@@ -245,7 +245,8 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
                     p.half_track_m * force.reach * plant.per_inertia},
                    out);
   if (plant.has_back_emf) {
-    add_back_emf(plant, s, is_on(wheels.left), is_on(wheels.right), force.sin_d, force.cos_d, out);
+    add_back_emf(plant, s, is_on(wheels.left) && !command.is_off.left,
+                 is_on(wheels.right) && !command.is_off.right, force.sin_d, force.cos_d, out);
   }
   if (plant.has_slope) add_slope(plant.extra, s.psi_rad, out);
   if (plant.sway_pace < 1.0) slow_sway(plant.sway_pace, out);

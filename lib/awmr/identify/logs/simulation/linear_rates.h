@@ -84,6 +84,7 @@ struct LinearPlant {
 struct HeldCommand {
   SideForces<double> force{};
   double steering_rad = 0.0;
+  SideForces<bool> is_off{};  ///< true: the motors of this side have no back-EMF
 };
 
 /// Partial derivatives of the rates of the state with respect to the state. The name x_psi means d
