@@ -63,7 +63,8 @@ class Check : public ::testing::Test {
     write(name, json);
     return awmr("check " + project());
   }
-  /// Runs `awmr run` on the project with a short search for gains of one mode and few simulated runs.
+  /// Runs `awmr run` on the project with a short search for gains of one mode and few simulated
+  /// runs.
   ProcessResult run() {
     write("tune.json", {{"global_evaluations", 20},
                         {"local_evaluations", 10},

@@ -3,8 +3,8 @@
 /// imbalance of left and right, nonlinear force. Forces on the vehicle: Stribeck friction, slope of
 /// the ground, ... Sensors: delay, averaging, filter, smoothing, wheel slip, mounting.
 ///
-/// The name of an effect in only one of several logs ends with kOfLog and the number of the log, for
-/// example "motor.force_scale.log_2".
+/// The name of an effect in only one of several logs ends with kOfLog and the number of the log,
+/// for example "motor.force_scale.log_2".
 #pragma once
 
 #include <array>

@@ -87,8 +87,8 @@ std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
   return requested;
 }
 
-/// Limit of the work of all searches (Effort): about 50 s on a processor of 2023, more for
-/// long logs. For short logs, the limit is about 10 000 evaluations, so that a search that does not
+/// Limit of the work of all searches (Effort): about 50 s on a processor of 2023, more for long
+/// logs. For short logs, the limit is about 10 000 evaluations, so that a search that does not
 /// converge stops early. A log that the model describes well needs a tenth of this. Several logs
 /// multiply the limit by their number, because the differences between them are searched too.
 std::int64_t effort_limit(const std::vector<DrivingLog>& logs) {

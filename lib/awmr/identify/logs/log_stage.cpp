@@ -59,8 +59,7 @@ void refuse_yaw_of_car(LogStage& stage) {
     if (!is_of_yaw) continue;
     stage.reasons[parameter.id] =
         "the vehicle turns like a car, by the side force of its tyres, which the model of awmr "
-        "does "
-        "not contain";
+        "does not contain";
   }
 }
 
@@ -313,8 +312,8 @@ void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogSt
   if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
 }
 
-/// Withdraws all intervals if a term of the fit has a value that no real vehicle has, or if the logs
-/// contain set-points of a speed controller.
+/// Withdraws all intervals if a term of the fit has a value that no real vehicle has, or if the
+/// logs contain set-points of a speed controller.
 void withdraw_if_implausible(const FamilyFit& chosen,
                              const std::optional<SpeedControl>& speed_control,
                              const std::string& file, LogStage& stage) {

@@ -15,8 +15,8 @@
 namespace awmr {
 namespace {
 
-/// The readings of the rows. Rows that repeat the row before, other than of a vehicle at rest, repeat
-/// a slower sensor and are left out.
+/// The readings of the rows. Rows that repeat the row before, other than of a vehicle at rest,
+/// repeat a slower sensor and are left out.
 struct OdometrySteps {
   std::vector<double> step_s;  ///< [i]: time from reading i to i + 1
   std::vector<double> moved;   ///< [i]: turn, rad, or distance, m, from reading i to i + 1

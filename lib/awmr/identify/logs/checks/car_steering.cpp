@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 
 #include "awmr/identify/logs/checks/log_checks.h"
 
@@ -43,6 +43,24 @@ void add_rows(const DrivingLog& log, double lag_s, CarRegression& sums) {
   }
 }
 
+/// Regression over all rows, with the lag that fits best.
+struct BestCar {
+  CarRegression sums;
+  double lag_s = 0.0;
+};
+
+/// Empty if no log has a motion with a steering angle.
+std::optional<BestCar> best_car(const std::vector<DrivingLog>& logs) {
+  std::optional<BestCar> best;
+  for (const double lag_s : {0.0, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.45}) {
+    CarRegression sums;
+    for (const DrivingLog& log : logs) add_rows(log, lag_s, sums);
+    if (!(sums.squares > 0.0)) return std::nullopt;
+    if (!best || sums.error() < best->sums.error()) best = BestCar{sums, lag_s};
+  }
+  return best;
+}
+
 /// Standard deviation of the errors of the yaw rate of a fit, rad/s; 0 if it is not measured.
 double yaw_rate_error(const LogFit& fit) {
   double squares = 0.0;
@@ -62,29 +80,19 @@ double yaw_rate_error(const LogFit& fit) {
 std::optional<Finding> car_steering_finding(const Vehicle& vehicle,
                                             const std::vector<DrivingLog>& logs,
                                             const LogFit& fit) {
-  constexpr std::array kLags_s{0.0, 0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.45};
   constexpr double kMuchBetter = 0.7;        // error of the car over that of the fit
   constexpr double kExplained = 0.4;         // error of the car over the yaw rate itself
   constexpr Interval kWheelbases{0.4, 1.5};  // over the length of the vehicle
-  if (!vehicle.has_steering()) return std::nullopt;
-  if (std::ranges::any_of(logs, [](const DrivingLog& log) {
-        return !log[LogChannel::kSpeed] || !log[LogChannel::kYawRate];
-      })) {
-    return std::nullopt;
-  }
-  CarRegression best;
-  double best_lag_s = 0.0;
-  for (const double lag_s : kLags_s) {
-    CarRegression sums;
-    for (const DrivingLog& log : logs) add_rows(log, lag_s, sums);
-    if (!(sums.squares > 0.0) || sums.rows == 0.0) return std::nullopt;
-    if (best.rows > 0.0 && sums.error() >= best.error()) continue;
-    best = sums;
-    best_lag_s = lag_s;
-  }
+  const auto has_both = [](const DrivingLog& log) {
+    return log[LogChannel::kSpeed] && log[LogChannel::kYawRate];
+  };
+  if (!vehicle.has_steering() || !std::ranges::all_of(logs, has_both)) return std::nullopt;
+  const auto car = best_car(logs);
+  if (!car) return std::nullopt;
+  const double error = car->sums.error();
   const double error_of_fit = yaw_rate_error(fit);
-  const double wheelbase_m = 1.0 / best.curvature_factor();
-  if (!(best.error() < kMuchBetter * error_of_fit) || !(best.error() < kExplained * best.size()) ||
+  const double wheelbase_m = 1.0 / car->sums.curvature_factor();
+  if (!(error < kMuchBetter * error_of_fit) || !(error < kExplained * car->sums.size()) ||
       !kWheelbases.contains(wheelbase_m / vehicle.length_m)) {
     return std::nullopt;
   }
@@ -97,7 +105,7 @@ std::optional<Finding> car_steering_finding(const Vehicle& vehicle,
                   "vehicle, not the side force of its tyres, so these logs give no yaw resistance "
                   "and no I'z. For the mass and the surge resistance, identify logs that drive "
                   "straight ahead",
-                  wheelbase_m, best_lag_s, best.error(), error_of_fit)};
+                  wheelbase_m, car->lag_s, error, error_of_fit)};
 }
 
 }  // namespace awmr

@@ -1,5 +1,6 @@
 /// Checks of the fit that run_log_stage() has chosen. Each of them is in a .cpp file of its own:
-/// slip_choice, adequacy, car_steering, speed_control, gyro_scale, inertia_check. Private to identify/.
+/// slip_choice, adequacy, car_steering, speed_control, gyro_scale, inertia_check. Private to
+/// identify/.
 #pragma once
 
 #include <optional>

@@ -270,8 +270,7 @@ class TermTrials {
     if (!(found_s > 0.0)) return;
     lowest_.consider(trial({{lag, found_s}}));
     if (!has(settled_.problem.model.quantities, ParameterId::kBackEmf)) return;
-    constexpr double kShare = 0.5;  // initial guess
-    lowest_.consider(trial({{lag, found_s}, {free_term(Kind::kRunOn), kShare}}), kLikelierFilter);
+    lowest_.consider(trial({{lag, found_s}, run_on_term()}), kLikelierFilter);
   }
 
   /// True if a mean with this delay, half of the averaging time, is plausible (may_be_mean()).

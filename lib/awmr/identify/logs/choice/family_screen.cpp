@@ -99,9 +99,6 @@ std::vector<FreeTerm> promising_terms(const std::vector<DrivingLog>& logs, const
   return terms;
 }
 
-/// Initial guess of the share of the force that remains when a command becomes 0 (kRunOn).
-constexpr double kRunOnBegin = 0.5;
-
 /// Returns the models to try next. Each changes the family of an open axis, or adds one of `terms`,
 /// or adds back-EMF if it is a candidate term.
 std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
@@ -116,7 +113,7 @@ std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
     neighbours.push_back({families, {term}});
     const bool is_lag = term.quantity.is(Kind::kMotorLag);
     if (!is_lag || !fit.options.frees(ParameterId::kBackEmf)) continue;
-    neighbours.push_back({families, {term, {free_term(Kind::kRunOn), kRunOnBegin}}});
+    neighbours.push_back({families, {term, run_on_term()}});
   }
   if (contains(fit.options.candidate_terms, ParameterId::kBackEmf)) {
     neighbours.push_back({.families = families, .has_back_emf = true});

@@ -29,7 +29,8 @@ struct OpenAxes {
 /// Selects families by rough fits (fit_roughly()), starting at the optimum of `first`. Each round
 /// tries, for each open axis (surge or yaw), every family that the axis does not have yet; the axis
 /// that was changed last is left out. A round also tries what a wrong family can imitate: a delay
-/// of the commands, a lag of the motors, a filter of speed or yaw rate, and ramps of the forces, if
+/// of the commands, a lag of the motors (with back-EMF, also together with a force that remains
+/// after a command of 0), a filter of speed or yaw rate, and ramps of the forces, if
 /// a score test predicts that they lower the error by 1 %; and back-EMF if that is a candidate term
 /// of `power_law`. The best change is kept if it lowers LogFit::relative_error by more than 2 %
 /// (back-EMF: by a third). There are at most eight rounds.

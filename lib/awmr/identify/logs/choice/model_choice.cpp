@@ -55,8 +55,8 @@ bool has_log_terms(const LogFit& fit) {
   return std::ranges::any_of(fit.quantities, [](const FreeQuantity& q) { return q.log != 0; });
 }
 
-/// The fit without the delays, errors and forces that it estimates for all logs, which may imitate a
-/// family or back-EMF. Keeps the terms of single logs, a delay of the commands and biases. Only
+/// The fit without the delays, errors and forces that it estimates for all logs, which may imitate
+/// a family or back-EMF. Keeps the terms of single logs, a delay of the commands and biases. Only
 /// quantities and coordinates are right.
 FamilyFit without_other_terms(FamilyFit fit) {
   for (std::size_t i = fit.fit.quantities.size(); i-- > 0;) {

@@ -19,8 +19,8 @@ void show_step(const IdentifyOptions& options, std::string_view what);
 LogFitOptions with_optional_coulomb(LogFitOptions power_law, const IdentifyOptions& options,
                                     Family surge, Family yaw);
 
-/// Fits the resistance families that the user requested, else those of `begin`. If the errors after the
-/// first round are far above the sensor noise, selects likelier families, and perhaps back-EMF
+/// Fits the resistance families that the user requested, else those of `begin`. If the errors after
+/// the first round are far above the sensor noise, selects likelier families, and perhaps back-EMF
 /// (likely_families()), and fits those instead. Never changes a family that the user selected.
 FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            const IdentifyOptions& options, const Families& begin = {});

@@ -433,10 +433,8 @@ std::string sag_text(const FoundTerm& loss, const LogFit& fit) {
 std::string run_on_text(const FoundTerm& share, const LogFit& fit) {
   return fmt::format(
       "{:.0f} +- {:.0f} % of the force of a motor remain when its command becomes 0, and then "
-      "decay "
-      "with the motor's lag. The fit compensates for this{}, but simulations and tuned gains "
-      "assume "
-      "that the force ends at once",
+      "decay with the motor's lag. The fit compensates for this{}, but simulations and tuned gains "
+      "assume that the force ends at once",
       100.0 * share.value, 100.0 * share.error, without_intervals(fit));
 }
 

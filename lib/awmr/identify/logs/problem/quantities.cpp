@@ -194,6 +194,8 @@ bool is_late_commands(const FreeTerm& term) {
 
 bool is_slip(const FreeTerm& term) { return term.quantity.kind == FreeQuantity::Kind::kWheelSlip; }
 
+FreeTerm run_on_term() { return {free_term(FreeQuantity::Kind::kRunOn), 0.5}; }
+
 FreeTerm stribeck_speed_term(ExtraForce force, double fastest) {
   const bool is_of_yaw = force == ExtraForce::kYawStribeck;
   const FreeQuantity speed{

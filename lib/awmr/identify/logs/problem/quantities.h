@@ -268,6 +268,8 @@ bool is_slip(const FreeTerm& term);
 /// Speed scale w_s of the Stribeck friction `force`, with its initial guess. `fastest`: largest
 /// speed of the logs, m/s or rad/s.
 FreeTerm stribeck_speed_term(ExtraForce force, double fastest);
+/// The force that remains after a command of 0 (kRunOn), beginning with a share of one half.
+FreeTerm run_on_term();
 inline constexpr double kStribeckShare = 0.1;  ///< initial guess of w_s over `fastest`
 
 /// Index of the first quantity that is `what`: a ParameterId, an ExtraForce, a Kind (acting in all
