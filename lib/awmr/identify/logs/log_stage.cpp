@@ -312,13 +312,16 @@ void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogSt
   if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
 }
 
-/// Withdraws all intervals if a term of the fit has a value that no real vehicle has, or if the
-/// logs contain set-points of a speed controller.
+/// Withdraws all intervals if a term of the fit has a value that no real vehicle has, if the place
+/// of the dead zone is unknown, or if the logs contain set-points of a speed controller.
 void withdraw_if_implausible(const FamilyFit& chosen,
                              const std::optional<SpeedControl>& speed_control,
                              const std::string& file, LogStage& stage) {
   if (speed_control && speed_control->withdraws) stage.withdraws_intervals = true;
-  if (chosen.fit.usable && has_implausible_term(chosen.fit)) stage.withdraws_intervals = true;
+  if (chosen.fit.usable &&
+      (has_implausible_term(chosen.fit) || has_dead_zone_of_unknown_place(chosen.fit))) {
+    stage.withdraws_intervals = true;
+  }
   if (chosen.fit.usable && has_impossible_servo(chosen.fit)) {
     stage.withdraws_intervals = true;
     stage.findings.push_back(impossible_servo_finding(file));

@@ -434,8 +434,11 @@ std::string run_on_text(const FoundTerm& share, const LogFit& fit) {
   return fmt::format(
       "{:.0f} +- {:.0f} % of the force of a motor remain when its command becomes 0, and then "
       "decay with the motor's lag. The fit compensates for this{}, but simulations and tuned gains "
-      "assume that the force ends at once",
-      100.0 * share.value, 100.0 * share.error, without_intervals(fit));
+      "assume that the force ends at once{}",
+      100.0 * share.value, 100.0 * share.error, without_intervals(fit),
+      has_dead_zone_of_unknown_place(fit)
+          ? ". The dead zone may act before or behind this lag, which gives different values"
+          : "");
 }
 
 std::string ramp_text(const FoundTerm& time, const LogFit&) {
@@ -490,6 +493,10 @@ bool has_implausible_term(const LogFit& fit) {
   const auto is_of_sensor = [&](const FoundTerm& slip) { return is_implausible(slip, fit); };
   return std::ranges::any_of(found_terms(fit, Kind::kForceImbalance), is_of_wheel) ||
          std::ranges::any_of(found_terms(fit, Kind::kWheelSlip), is_of_sensor);
+}
+
+bool has_dead_zone_of_unknown_place(const LogFit& fit) {
+  return has(fit.quantities, Kind::kRunOn) && has(fit.quantities, ParameterId::kWheelDeadZone);
 }
 
 bool saturates_much(const LogFit& fit) {

@@ -60,6 +60,11 @@ std::vector<Finding> log_findings(const LogFit& fit, const std::vector<DrivingLo
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
                                                  const std::vector<DrivingLog>& logs);
 
+/// True if the fit has both a dead zone of the motors and a force that decays with their lag after a
+/// command of 0. The controller may apply the dead zone before the lag, the model applies it behind
+/// the lag, and the values differ by more than their intervals.
+bool has_dead_zone_of_unknown_place(const LogFit& fit);
+
 /// True if the fit has found a large saturation of the forces: the largest command loses more than
 /// 5 % of its force, or the exponent of the forces is below 0.95. The intervals of such a fit are
 /// too narrow, because the true form of the saturation is unknown. A wrong form makes the force of
