@@ -91,7 +91,8 @@ Result<EmitInputs> emit_inputs(const std::filesystem::path& model,
       .gains_sha256 = gains_input.sha256,
       .gains_file = gains.filename().string(),
       .has_gains_of_another_model = !is_made_from(gains_json, model_input.sha256).value_or(true)};
-  if (inputs.has_gains_of_another_model) return inputs;
+  inputs.has_changed_gains = has_changed_gains(gains_json);
+  if (inputs.has_gains_of_another_model || inputs.has_changed_gains) return inputs;
   AWMR_ASSIGN_OR_RETURN(inputs.certificate, read_certificate(gains));
   return inputs;
 }

@@ -8,6 +8,7 @@
 #include "awmr/core/input_file.h"
 #include "awmr/core/json/json.h"
 #include "awmr/core/json/json_document.h"
+#include "awmr/model/gains_file.h"
 #include "awmr/simulate/scenario.h"
 
 namespace awmr::cli {
@@ -29,6 +30,12 @@ Finding of_another_mode(const std::filesystem::path& gains, YawMode tuned,
                       mode ? "this mode, or for all of them" : "all modes")};
 }
 
+Finding changed_gains(const std::filesystem::path& gains) {
+  return {gains.string(), 0, Severity::kWarning, "gains-changed",
+          "the gains in this file were changed after tuning, so its constraints, margins and "
+          "metrics are not valid for them. awmr tune --baseline tests them"};
+}
+
 }  // namespace
 
 Status note_other_model(const std::filesystem::path& gains, const std::filesystem::path& model,
@@ -39,6 +46,7 @@ Status note_other_model(const std::filesystem::path& gains, const std::filesyste
   AWMR_ASSIGN_OR_RETURN(const std::optional<YawMode> tuned,
                         read_json_object(json, gains.string(), tuned_mode));
   if (tuned && mode != tuned) findings.push_back(of_another_mode(gains, *tuned, mode));
+  if (has_changed_gains(json)) findings.push_back(changed_gains(gains));
   AWMR_ASSIGN_OR_RETURN(const InputFile own, input_file(model));
   if (is_made_from(json, own.sha256).value_or(true)) return {};
   findings.push_back(

@@ -11,7 +11,8 @@
 
 namespace awmr::cli {
 
-/// Adds a warning if the gains were tuned for another model or another mode.
+/// Adds a warning if the gains were tuned for another model or another mode, or were changed after
+/// tuning (`gains-changed`).
 /// `gains-of-another-model`: the gains file lists inputs, but the SHA-256 of the model is not among
 /// them. `gains-of-another-mode`: the gains were tuned for one mode only, and are used in another.
 /// `mode`: the mode in which the gains are used; absent: all modes. No warning for gains that were

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "awmr/core/index.h"
 #include "awmr/identify/logs/log_fit.h"
 #include "awmr/identify/logs/log_fit_options.h"
 #include "awmr/identify/logs/problem/residuals.h"
@@ -152,6 +153,82 @@ TEST(LateLog, KeepsAMotorLagOfTheVehicleFileFixed) {
   EXPECT_FALSE(has_finding(*result, "actuator-lag"));
   expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
   expect_recovered(*result, ParameterId::kSurgeAlpha, kTruths[1].a1, 4.5);
+}
+
+/// The drive of a vehicle with nearly linear resistance and a motor lag of kLag_s. The yaw motion
+/// has the time constant 0.21 s, so that the lag and I'z could be exchanged.
+struct LaggingMotors : ::testing::Test {
+  static constexpr double kLag_s = 0.1;
+  static constexpr Truth kLinear{0.9, 0.95, 0.3, 0.95, 0.4};
+
+  static DrivingLog drive_of(DrivePlan plan) { return drive_with_lag(kLinear, 8, kLag_s, plan); }
+};
+
+/// The readings of a channel, `rows` rows late; none in the first `rows` rows.
+void delay_by(std::size_t rows, Measured& channel) {
+  std::vector<double>& values = channel.value;
+  std::copy_backward(values.begin(), values.end() - eigen_index(rows), values.end());
+  std::fill_n(channel.fresh.begin(), rows, false);
+  channel.fresh_count = static_cast<int>(std::ranges::count(channel.fresh, true));
+}
+
+TEST_F(LaggingMotors, AreFoundBesideALateSpeedAndPosition) {
+  constexpr std::size_t kRows = 6;
+  DrivingLog log = drive_of({.duration_s = 20.0, .rate_hz = 50.0});
+  for (const LogChannel c : {LogChannel::kSpeed, LogChannel::kX, LogChannel::kY}) {
+    delay_by(kRows, *log[c]);
+  }
+  TrialData data;
+  data.logs = {std::move(log)};
+  const auto result = identify(robot(), data, power_law(), {});
+  ASSERT_TRUE(result);
+  expect_estimated(*result, "motor.time_constant_s", kLag_s);
+  expect_estimated(*result, "delay.speed_mps", 0.02 * kRows);
+  EXPECT_FALSE(has_finding(*result, "sensor-lag"));
+  expect_recovered(*result, ParameterId::kMassNorm, kLinear.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kLinear.mass_norm, 4.5);
+}
+
+/// The log without its first `rows` rows.
+DrivingLog without_first(std::size_t rows, DrivingLog log) {
+  const auto erase = [&](auto& values) {
+    values.erase(values.begin(), values.begin() + eigen_index(rows));
+  };
+  erase(log.t_s);
+  erase(log.line);
+  erase(log.force_left);
+  erase(log.force_right);
+  erase(*log.steering_command_rad);
+  for (std::optional<Measured>& channel : log.measured) {
+    if (!channel) continue;
+    erase(channel->value);
+    erase(channel->fresh);
+    channel->fresh_count = static_cast<int>(std::ranges::count(channel->fresh, true));
+  }
+  return log;
+}
+
+/// On a straight drive with linear resistance, the lag of the motors and the motion have the same
+/// effect.
+TEST_F(LaggingMotors, LeaveTwoValuesOfTheMassOnAStraightDrive) {
+  constexpr Truth kStraight{0.9, 1.0, 0.3, 1.0, 0.27};
+  TrialData data;
+  data.logs = {without_first(
+      80, drive_with_lag(kStraight, 8, kLag_s,
+                         {.duration_s = 20.0, .rate_hz = 50.0, .straight = true}))};
+  remove_pose(data.logs.front());
+  data.logs.front()[LogChannel::kYawRate].reset();
+  Vehicle free = robot();
+  free.surge_beta_range = Vehicle{}.surge_beta_range;
+  const auto open = identify(free, data, power_law(), {});
+  ASSERT_TRUE(open);
+  EXPECT_FALSE(open->model[ParameterId::kMassNorm].value);
+  expect_recovered(*open, ParameterId::kSurgeAlpha, kStraight.a1, 4.5);
+  Vehicle known = free;
+  known.motor_time_constant_s = kLag_s;
+  const auto result = identify(known, data, power_law(), {});
+  ASSERT_TRUE(result);
+  expect_recovered(*result, ParameterId::kMassNorm, kStraight.mass_norm, 4.5);
 }
 
 /// Filters a channel by a first-order lag: dy/dt = (u - y)/T, exactly for ramps between the rows,

@@ -27,11 +27,15 @@ struct EmitInputs {
   std::string model_sha256;               ///< SHA-256 of the model file, lower-case hexadecimal
   std::string gains_sha256;               ///< SHA-256 of the gains file, lower-case hexadecimal
   std::string gains_file = "gains.json";  ///< name without directories
-  /// Robustness certificate of the gains; absent if they have none, or are of another model.
+  /// Robustness certificate of the gains; absent if they have none, are of another model,
+  /// or were changed.
   std::optional<CertifiedGains> certificate = {};
   /// True if the gains were tuned with another model, so that their stability with this model was
   /// not checked. The header then states this in place of the certificate.
   bool has_gains_of_another_model = false;
+  /// True if the gains were changed after tuning. The header then states that their stability was
+  /// not checked.
+  bool has_changed_gains = false;
 };
 
 /// Returns the value of AWMR_PARAMS_SHA256, which identifies both input files: the SHA-256 of a

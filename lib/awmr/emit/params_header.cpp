@@ -75,12 +75,15 @@ std::string checks_text(const std::vector<Macro>& macros, const ModeGains& gains
 }
 
 /// Returns the worst cases of the heading loop in gains.json as comment lines: the smallest damping
-/// ratio and delay margin of each mode. Empty if gains.json has none. For gains of another model:
-/// a line that they were not checked with this model.
+/// ratio and delay margin of each mode. Empty if gains.json has none. For gains of another
+/// model, or that were changed after tuning: a line that they were not checked.
 std::string certificate_text(const EmitInputs& inputs) {
   if (inputs.has_gains_of_another_model) {
     return "   The gains were tuned with another model: stability with this model was not "
            "checked.\n";
+  }
+  if (inputs.has_changed_gains) {
+    return "   The gains were changed after tuning: stability was not checked.\n";
   }
   const std::optional<CertifiedGains>& certificate = inputs.certificate;
   if (!certificate) return {};

@@ -32,6 +32,7 @@ constexpr CodeEffect kEffects[] = {
     {"fragile-mass", Effect::kWithdrawn},
     {"gains-of-another-mode", Effect::kWithdrawn},
     {"gains-of-another-model", Effect::kWithdrawn},
+    {"gains-changed", Effect::kWithdrawn},
     {"result-of-another-model", Effect::kWithdrawn},
     {"result-without-origin", Effect::kWithdrawn},
     {"log-of-the-fit", Effect::kWithdrawn},

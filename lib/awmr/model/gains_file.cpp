@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "awmr/core/file.h"
+#include "awmr/core/files/hash.h"
 #include "awmr/core/json/json_document.h"
 #include "awmr/model/gains_json.h"
 #include "awmr/model/observer_rate.h"
@@ -115,6 +116,34 @@ Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::pa
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return certificate;
+}
+
+namespace {
+
+/// The keys of one set of gains.
+Json gains_alone(const Json& set) {
+  Json gains = Json::object();
+  for (const char* const key : {"heading", "speed", "observer"}) {
+    if (set.contains(key)) gains[key] = set[key];
+  }
+  return gains;
+}
+
+}  // namespace
+
+std::string sha256_of_gains(const Json& document) {
+  Json gains = gains_alone(document);
+  if (document.contains("modes")) {
+    for (const auto& [mode, own] : document["modes"].items()) {
+      gains["modes"][mode] = gains_alone(own);
+    }
+  }
+  return sha256_hex(to_text(gains));
+}
+
+bool has_changed_gains(const Json& document) {
+  const Json::json_pointer place("/certificate/gains_sha256");
+  return document.contains(place) && document[place] != sha256_of_gains(document);
 }
 
 std::string pointer_of(const ModeGains& gains, YawMode mode) {

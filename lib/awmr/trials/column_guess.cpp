@@ -160,12 +160,10 @@ bool increases(const std::vector<double>& values) {
 /// Adds a guess for the first column whose values rise and whose name has a word for a time or
 /// begins with a unit of time: `TimeUS`, `ms_today`, `t`. Without a unit, assumes seconds.
 void add_named_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
-  static const std::set<std::string> kClock{"t",     "time",    "timestamp", "stamp",
-                                            "clock", "elapsed", "duration"};
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
     const Words words = words_of(sample.names[i]);
     const auto first_unit = unit_in({words.front()}, Dimension::kTime);
-    const bool is_time = has_any(words, kClock) || first_unit;
+    const bool is_time = has_any(words, kClockWords) || first_unit;
     const auto unit = first_unit ? first_unit : unit_in(words, Dimension::kTime);
     if (!is_time || !increases(sample.values[i])) continue;
     guesses.push_back({std::string(kTimeName),

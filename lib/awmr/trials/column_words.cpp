@@ -6,6 +6,9 @@
 #include "awmr/core/units.h"
 
 namespace awmr {
+
+const std::set<std::string> kClockWords{"t",     "time",    "timestamp", "stamp",
+                                         "clock", "elapsed", "duration"};
 namespace {
 
 /// A name fits `column` if it has a word of each set in `all` and no word of `none`.
@@ -21,7 +24,6 @@ const std::set<std::string> kThrustWords{"force",  "duty",   "pwm",   "throttle"
 const std::set<std::string> kSteerWords{"steer", "steering", "delta"};
 const std::set<std::string> kSideWords{"left", "l", "right", "r"};
 const std::set<std::string> kSpeedWords{"speed", "velocity", "vel", "v", "vx", "spd", "linear"};
-const std::set<std::string> kClockWords{"t", "time", "elapsed", "duration", "clock"};
 
 std::vector<Rule> log_rules() {
   static const std::set<std::string> kCommand{"cmd",    "command", "setpoint",  "sp",  "desired",

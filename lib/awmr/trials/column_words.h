@@ -14,6 +14,9 @@ namespace awmr {
 
 using Words = std::vector<std::string>;
 
+/// Words that name a time.
+extern const std::set<std::string> kClockWords;
+
 /// Splits a name into lower-case words: at characters other than letters and digits, and before a
 /// capital that follows a lower-case letter. `IMU.GyrZ` gives imu, gyr, z.
 Words words_of(std::string_view name);

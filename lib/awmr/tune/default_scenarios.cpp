@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "awmr/core/csv/csv_cell.h"
 #include "awmr/core/units.h"
 #include "awmr/model/fitted_law.h"
 #include "awmr/model/steady.h"
@@ -158,6 +159,17 @@ Result<Manoeuvre> manoeuvre_for(const Model& model, std::optional<YawMode> mode)
   return m;
 }
 
+/// The model with a heading rate limit as its highest yaw rate, if that is not lower already. The
+/// time and the size of the heading steps then suit the limit.
+Model turning_within(const HeadingRateChoice& choice, Model model) {
+  const auto limit_degps = number_from_text(choice);
+  const std::optional<double> measured_degps = measured_yaw_rate_degps(model);
+  if (limit_degps && *limit_degps > 0.0 && (!measured_degps || *limit_degps < *measured_degps)) {
+    model.vehicle.yaw_rate_max_degps = *limit_degps;
+  }
+  return model;
+}
+
 }  // namespace
 
 Result<Scenario> examined_scenario(const Model& model) {
@@ -173,7 +185,8 @@ Result<Scenario> default_tuning_scenario(const Model& model, std::optional<YawMo
 Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
                                                        const TuneOptions& options,
                                                        const HeadingRateChoice& choice) {
-  AWMR_ASSIGN_OR_RETURN(Scenario stepped, default_tuning_scenario(model, options.mode));
+  AWMR_ASSIGN_OR_RETURN(Scenario stepped,
+                        default_tuning_scenario(turning_within(choice, model), options.mode));
   std::vector<Scenario> scenarios{std::move(stepped)};
   const std::optional<double> measured_degps = measured_yaw_rate_degps(model);
   if (choice.empty() && measured_degps) {

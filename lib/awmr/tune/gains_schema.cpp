@@ -152,6 +152,7 @@ void describe_certificate(JsonObject& json) {
   json.number("damping_min", {.min = -1.0, .max = 1.0});
   json.nullable_number("delay_margin_s", kNonNegative);
   json.string("method");
+  json.optional_string("gains_sha256");  // not in older files
   for (const char* key :
        {"parameters", "degrees_of_freedom", "latency_s", "motor_time_constant_s"}) {
     json.number(key, kNonNegative);

@@ -206,6 +206,7 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
     own = gains_to_json(one.gains);
     put_results(one, options, own);
   }
+  if (json.contains("certificate")) json["certificate"]["gains_sha256"] = sha256_of_gains(json);
   put_provenance(json, provenance);
   return to_text(json);
 }

@@ -562,7 +562,8 @@ Result<Scenario> default_tuning_scenario(const Model& model, std::optional<YawMo
 ///   2. The same with the heading rate limited to the highest measured yaw rate. It favours gains
 ///      that are accurate where the model is valid. Left out if the model has no measured yaw rate.
 ///      Also left out if `choice` (--heading-rate-limit) is not empty; the caller then applies
-///      `choice`.
+///      `choice`. If `choice` is a number, scenario 1 is that of a model with this highest yaw rate,
+///      unless its own is lower.
 ///   3. Only if TuneOptions::observer is present: scenario 2 (or 1, if 2 is left out) with a
 ///      constant disturbance, because without a disturbance an observer only adds noise. The yaw
 ///      moment is kPush times the largest moment of the weaker mode (turning_authority_m()). The

@@ -65,8 +65,9 @@ void refuse_yaw_of_car(LogStage& stage) {
 
 /// Selects the model of the logs: resistance families of surge and yaw, and back-EMF if it is
 /// significant. Decides between wheel slip and late commands (decide_slip()), and whether the
-/// steering stop limits the command or the angle (decide_stop()). Then checks whether the fit
-/// describes the logs, which can withdraw intervals. Adds the reports of all fits and the findings
+/// steering stop limits the command or the angle (decide_stop()). Then checks whether the logs
+/// decide between a lag and the inertia, and whether the fit describes the logs, which can withdraw
+/// intervals. Adds the reports of all fits and the findings
 /// to `stage`. `power_law`, `first`: as in choose_model().
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                        const IdentifyOptions& options, FamilyFit first, LogStage& stage) {
@@ -79,6 +80,7 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   if (undecided_slip) stage.findings.push_back(*undecided_slip);
   const std::optional<Finding> undecided_stop = decide_stop(logs, chosen);
   if (undecided_stop) stage.findings.push_back(*undecided_stop);
+  refuse_exchangeable(logs, chosen);
   stage.surge_family = chosen.surge;
   stage.yaw_family = chosen.yaw;
   stage.chosen_report = stage.reports.size();

@@ -15,17 +15,17 @@
 namespace awmr {
 namespace {
 
-/// The readings of the rows. Rows that repeat the row before, other than of a vehicle at rest,
-/// repeat a slower sensor and are left out.
+/// Movements between the readings of a log, and the rates at the readings.
 struct OdometrySteps {
   std::vector<double> step_s;  ///< [i]: time from reading i to i + 1
   std::vector<double> moved;   ///< [i]: turn, rad, or distance, m, from reading i to i + 1
   std::vector<double> rate;    ///< yaw rate, rad/s, or magnitude of the speed, m/s
 };
 
-/// The steps of `pose`, the heading or the position, and the readings of `rate` at the rows with
-/// both. A step longer than three median steps is a gap, and counts as a median step.
-OdometrySteps steps_of(const DrivingLog& log, std::span<const LogChannel> pose, LogChannel rate) {
+/// The movements of `pose`, the heading or the position, and the readings of `rate` at the rows with
+/// both. Leaves out rows that repeat the row before, unless the vehicle is at rest: they repeat a
+/// slower sensor. A step longer than three median steps is a gap, and counts as a median step.
+OdometrySteps odometry_steps(const DrivingLog& log, std::span<const LogChannel> pose, LogChannel rate) {
   OdometrySteps found;
   std::optional<std::size_t> last;
   for (std::size_t row = 0; row < log.rows(); ++row) {
@@ -123,13 +123,13 @@ void set_aside_dead_reckoning(DrivingLog& log, std::vector<Finding>& findings) {
   constexpr std::array kHeading{LogChannel::kHeading};
   const auto has = [&](LogChannel channel) { return log[channel].has_value(); };
   if (has(LogChannel::kX) && has(LogChannel::kY) && has(LogChannel::kSpeed) &&
-      is_integral(steps_of(log, kPosition, LogChannel::kSpeed))) {
+      is_integral(odometry_steps(log, kPosition, LogChannel::kSpeed))) {
     note_dead_reckoning(log, "x_m, y_m", "speed_mps", findings);
     log[LogChannel::kX].reset();
     log[LogChannel::kY].reset();
   }
   if (has(LogChannel::kHeading) && has(LogChannel::kYawRate) &&
-      is_integral(steps_of(log, kHeading, LogChannel::kYawRate))) {
+      is_integral(odometry_steps(log, kHeading, LogChannel::kYawRate))) {
     note_dead_reckoning(log, "heading_deg", "yaw_rate_radps", findings);
     log[LogChannel::kHeading].reset();
   }

@@ -63,16 +63,11 @@ std::optional<BestCar> best_car(const std::vector<DrivingLog>& logs) {
 
 /// Standard deviation of the errors of the yaw rate of a fit, rad/s; 0 if it is not measured.
 double yaw_rate_error(const LogFit& fit) {
-  double squares = 0.0;
-  double count = 0.0;
-  for (const auto& [sensor, parts] : fit.errors) {
-    if (sensor.channel != LogChannel::kYawRate) continue;
-    for (const ErrorSeries& part : parts) {
-      for (const double error : part.error) squares += error * error;
-      count += static_cast<double>(part.error.size());
-    }
+  SquareSum sum;
+  for (const auto& [sensor, errors] : fit.errors) {
+    if (sensor.channel == LogChannel::kYawRate) sum.add(errors);
   }
-  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+  return sum.count > 0.0 ? std::sqrt(sum.squares / sum.count) : 0.0;
 }
 
 }  // namespace

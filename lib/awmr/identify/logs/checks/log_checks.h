@@ -1,5 +1,5 @@
 /// Checks of the fit that run_log_stage() has chosen. Each of them is in a .cpp file of its own:
-/// slip_choice, adequacy, car_steering, speed_control, gyro_scale, inertia_check. Private to
+/// slip_choice, exchangeable, adequacy, car_steering, speed_control, gyro_scale, inertia_check. Private to
 /// identify/.
 #pragma once
 
@@ -28,6 +28,10 @@ namespace awmr {
 /// between two encoder ticks) looks like slip. The intervals that depend on the slip are then
 /// withdrawn, too (withdraw_of_slip()). Empty if nothing was withdrawn.
 std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
+
+/// Refuses m', I'z and a lag of the motors, the servo or a sensor if these logs allow another value
+/// of them about equally well (equally_likely_exchange()).
+void refuse_exchangeable(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
 
 /// Returns one finding `coloured-residuals` for every channel whose whitened residuals are still
 /// correlated in time (Ljung-Box test). Whitening removes the drift of the noise model. The finding

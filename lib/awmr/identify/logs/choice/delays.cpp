@@ -4,11 +4,13 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "awmr/core/containers.h"
+#include "awmr/identify/logs/choice/exchanged_lags.h"
 #include "awmr/identify/logs/choice/further_terms.h"
 #include "awmr/identify/logs/choice/log_terms.h"
 #include "awmr/identify/logs/choice/term_trials.h"
@@ -108,6 +110,8 @@ constexpr double kLikelierFilter = 10.0;
 /// it has added the best term.
 constexpr double kComparable = 0.2;
 constexpr double kBeyondDoubt = 20.0;
+/// Decrease of AIC by which a trial is so much better that others need not be tried.
+constexpr double kClear = 100.0;
 
 /// Returns slip of the speed and slip of the yaw rate, two terms with the form of `of_speed` (slip
 /// speed or slip ratio). Empty if this form of slip of the yaw rate is not a candidate.
@@ -124,7 +128,7 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
 class TermTrials {
  public:
   TermTrials(const NoiseIteration& settled, const std::vector<CandidateTerm>& terms)
-      : settled_(settled), terms_(terms), start_(start_of_trials(settled)), lowest_(settled) {}
+      : settled_(settled), terms_(terms), start_(start_of_trials(settled)), lowest_(start_) {}
 
   /// Makes the trials, and returns the fit with the lowest AIC. If no term lowers AIC, returns the
   /// fit with the most significant candidate if its score test exceeds 20 standard errors
@@ -137,10 +141,27 @@ class TermTrials {
       if (is_clear_friction(candidate)) return std::move(lowest_.best());
     }
     if (!lowest_.best()) consider_differences_together();
-    consider_filters();
+    const bool is_clear = consider_lag_and_delays();
+    if (!is_clear) consider_filters();
     if (delay_s_ > 0.0) consider_filters_of_both();
-    consider_smoothing();
+    if (!is_clear) consider_smoothing();
     return lowest_.best() ? std::move(lowest_.best()) : std::move(strongest_);
+  }
+
+  /// Adds further terms to `fit`, the result of likeliest(), one at a time, as long as the most
+  /// significant candidate of `fit` that lowered AIC in its own trial lowers AIC here too. Terms with
+  /// independent effects, such as a delay and the bias of a gyroscope, are thus found in one search.
+  NoiseIteration with_independent_terms(NoiseIteration fit) const {
+    while (true) {
+      const std::vector<CandidateTerm> candidates = candidate_terms(fit.problem, fit.point);
+      const auto next = std::ranges::find_if(candidates, [&](const CandidateTerm& one) {
+        return contains(useful_, one.quantity.name());
+      });
+      if (next == candidates.end()) return fit;
+      NoiseIteration more = tried(fit, with_companion(fit.problem, *next));
+      if (!(akaike_of(fit) - akaike_of(more) > kTermAicThreshold)) return fit;
+      fit = std::move(more);
+    }
   }
 
  private:
@@ -167,6 +188,9 @@ class TermTrials {
     NoiseIteration fit = is_first ? trial_from_both(added) : trial(added);
     const bool may_be_wrong = more.is(ExtraForce::kTurnDrag) || more.is_ramp();
     if (may_be_wrong && has_wrong_term(fit, settled_)) return;
+    if (akaike_of(start_) - akaike_of(fit) > kTermAicThreshold && !may_be_wrong) {
+      useful_.push_back(more.name());
+    }
     const double found_s = fit.point.coordinates.back();
     consider_angle_beyond_stop(candidate, fit);
     if (is_beyond_doubt(candidate)) strongest_ = fit;
@@ -224,11 +248,36 @@ class TermTrials {
     lowest_.consider(std::move(fit));
   }
 
+  /// If several sensors seem delayed, tries all of their delays together: with a motor lag as long
+  /// as the shortest delay, by which the others become shorter, and without one. Alone, none of
+  /// these terms describes the logs, and a filter of one sensor could be the best substitute.
+  /// Returns true if the AIC is lower by more than kClear than that of all trials before.
+  bool consider_lag_and_delays() {
+    std::vector<FreeTerm> delays;
+    double shortest_s = std::numeric_limits<double>::infinity();
+    for (const CandidateTerm& candidate : terms_) {
+      if (candidate.quantity.kind != Kind::kSensorDelay || !(candidate.value > 0.0)) continue;
+      delays.push_back({candidate.quantity, candidate.value});
+      shortest_s = std::min(shortest_s, candidate.value);
+    }
+    if (delays.size() < 2) return false;
+    LowestAic together = lowest_;
+    together.consider(trial(delays), kLikelierFilter);
+    if (!has_motor_lag(settled_.problem.model)) {
+      std::erase_if(delays, [&](const FreeTerm& delay) { return delay.begin <= shortest_s; });
+      for (FreeTerm& delay : delays) delay.begin -= shortest_s;
+      delays.push_back({free_term(Kind::kMotorLag), shortest_s});
+      together.consider(trial(delays), kLikelierFilter);
+    }
+    const bool is_clear = together.criterion() < lowest_.criterion() - kClear;
+    lowest_ = std::move(together);
+    return is_clear;
+  }
+
   /// True if the candidate is the most significant one, and is Coulomb friction whose trial lowers
-  /// AIC by more than 100. It is then added before all other terms, because these could imitate it.
+  /// AIC by more than kClear. It is then added before all other terms, because these could imitate it.
   /// If the true resistance has no Coulomb friction, the comparison of families finds that later.
   bool is_clear_friction(const CandidateTerm& candidate) {
-    constexpr double kClear = 100.0;
     return &candidate == &terms_.front() && candidate.quantity.kind == Kind::kParameter &&
            lowest_.best() && akaike_of(settled_) - akaike_of(*lowest_.best()) > kClear;
   }
@@ -370,6 +419,7 @@ class TermTrials {
   NoiseIteration start_;                     ///< start_of_trials()
   LowestAic lowest_;
   std::optional<NoiseIteration> strongest_;  ///< trial of the candidate that is_beyond_doubt()
+  std::vector<std::string> useful_;  ///< candidates that lowered AIC in their trials
   std::vector<std::string> partners_;  ///< terms that were tried together with another candidate
   bool has_sensor_delay_ = false;      ///< true: a trial with a sensor's delay lowered AIC
   double delay_s_ = 0.0;               ///< command delay of its trial
@@ -393,10 +443,10 @@ Extended with_both_of_turning(NoiseIteration fit) {
                   std::vector<double>(other.size(), 0.0));
 }
 
-/// Returns a converged fit with one more free term, selected by trials. Empty if no term lowers AIC
-/// enough (settled_if_better()), or if the term is rejected (has_wrong_term()). For long logs, the
-/// trials first use a sample of the windows, to save time.
-std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled) {
+/// Returns a converged fit with one or more further free terms, selected by trials. Empty if no term
+/// lowers AIC enough (settled_if_better()), or if a term is rejected (has_wrong_term()). For long
+/// logs, the trials first use a sample of the windows, to save time.
+std::optional<NoiseIteration> with_more_terms(const NoiseIteration& settled) {
   const std::vector<CandidateTerm> terms = candidate_terms(settled.problem, settled.point);
   if (terms.empty()) return std::nullopt;
   const auto tested = [&](std::optional<NoiseIteration> more) -> std::optional<NoiseIteration> {
@@ -410,7 +460,14 @@ std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled) {
       if (auto more = tested(with_all_windows(settled, *found))) return more;
     }
   }
-  return tested(TermTrials(settled, terms).likeliest());
+  TermTrials trials(settled, terms);
+  const auto found = trials.likeliest();
+  if (!found) return std::nullopt;
+  const NoiseIteration several = trials.with_independent_terms(*found);
+  if (several.problem.model.quantities.size() > found->problem.model.quantities.size()) {
+    if (auto more = tested(several)) return more;
+  }
+  return tested(found);
 }
 
 /// Returns a fit in which averaging replaces the filters of speed and yaw rate, with one more term
@@ -419,18 +476,29 @@ std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled) {
 std::optional<NoiseIteration> with_averaging(const NoiseIteration& settled) {
   std::optional<NoiseIteration> fit = with_averaging_for_filters(settled);
   const auto is_likelier = [&] { return akaike_of(*fit) < akaike_of(settled); };
-  if (fit && !is_likelier()) fit = with_one_more(*fit);
+  if (fit && !is_likelier()) fit = with_more_terms(*fit);
   if (fit && !is_likelier()) return std::nullopt;
   return fit;
 }
 
-/// Returns a fit with one more free term: a candidate of the score tests, else a slower servo, else
-/// a motor lag, else averaging in place of filters. Empty if none of them lowers AIC enough.
+/// Returns a fit with further free terms: candidates of the score tests, else a slower servo, else
+/// a motor lag, else averaging or a delay in place of filters, else exchanged time constants. Empty
+/// if none of them lowers AIC enough.
 std::optional<NoiseIteration> with_next_term(const NoiseIteration& settled) {
-  if (auto more = with_one_more(settled)) return more;
+  if (auto more = with_more_terms(settled)) return more;
   if (auto more = with_slower_servo(settled)) return more;
   if (auto more = with_motor_lag_and_delay(settled)) return more;
-  return with_averaging(settled);
+  if (auto more = with_averaging(settled)) return more;
+  if (auto other = with_delay_for_filter(settled)) return other;
+  return with_exchanged_lag(settled);
+}
+
+/// True if `fit` has a lag (Kind::kMotorLag or kSensorLag) that `before` does not have.
+bool has_new_lag(const NoiseIteration& fit, const NoiseIteration& before) {
+  return std::ranges::any_of(fit.problem.model.quantities, [&](const FreeQuantity& q) {
+    const bool is_lag = q.kind == Kind::kMotorLag || q.kind == Kind::kSensorLag;
+    return is_lag && !has(before.problem.model.quantities, q.name());
+  });
 }
 
 }  // namespace
@@ -438,7 +506,11 @@ std::optional<NoiseIteration> with_next_term(const NoiseIteration& settled) {
 NoiseIteration find_delays_and_errors(NoiseIteration settled,
                                       const std::function<bool(const NoiseIteration&)>& ends) {
   while (auto more = with_next_term(settled)) {  // each step lowers AIC
+    const bool is_lagged = has_new_lag(*more, settled);
     settled = std::move(*more);
+    if (is_lagged) {
+      if (auto other = with_exchanged_lag(settled)) settled = *std::move(other);
+    }
     if (auto lag = with_motor_lag_for_filters(settled)) settled = std::move(*lag);
     if (auto other = with_other_stop(settled)) settled = *std::move(other);
     if (ends && ends(settled)) break;

@@ -137,16 +137,17 @@ bool has_right_terms(const LogFit& fit) {
 
 }  // namespace
 
+void SquareSum::add(const std::vector<ErrorSeries>& errors) {
+  for (const ErrorSeries& part : errors) {
+    for (const double e : part.error) squares += e * e;
+    count += static_cast<double>(part.error.size());
+  }
+}
+
 ErrorSize size_of_errors(std::initializer_list<const LogFit*> fits) {
-  std::map<LogSensor, std::pair<double, double>> sums;  // squares and number of errors
+  std::map<LogSensor, SquareSum> sums;
   for (const LogFit* fit : fits) {
-    for (const auto& [sensor, errors] : fit->errors) {
-      auto& [squares, n] = sums[sensor];
-      for (const ErrorSeries& part : errors) {
-        for (const double e : part.error) squares += e * e;
-        n += static_cast<double>(part.error.size());
-      }
-    }
+    for (const auto& [sensor, errors] : fit->errors) sums[sensor].add(errors);
   }
   ErrorSize found;
   for (const auto& [sensor, sum] : sums) {

@@ -20,6 +20,14 @@ struct FamilyFit {
   LogFit fit;
 };
 
+/// Sum of the squares of errors, and their number.
+struct SquareSum {
+  double squares = 0.0;
+  double count = 0.0;
+
+  void add(const std::vector<ErrorSeries>& errors);
+};
+
 /// Sum of n ln(sum e^2/n) over all sensors, with the n errors e of a sensor in all of these fits,
 /// and the number of errors of all sensors.
 struct ErrorSize {

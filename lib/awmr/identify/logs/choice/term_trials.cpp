@@ -95,9 +95,8 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
   return settle_noise(std::move(from.problem), std::move(from.point), {.most = 1});
 }
 
-NoiseIteration start_of_trials(NoiseIteration settled) {
-  settled.point = settle_noise(with_white_noise(settled.problem), settled.point, {.most = 1}).point;
-  return settled;
+NoiseIteration start_of_trials(const NoiseIteration& settled) {
+  return settle_noise(with_white_noise(settled.problem), settled.point, {.most = 1});
 }
 
 NoiseIteration sample_of(const NoiseIteration& settled) {
@@ -209,6 +208,22 @@ std::optional<NoiseIteration> with_averaging_for_filters(const NoiseIteration& s
     averaging.push_back({free_term(Kind::kAveraging, one.channel), 2.0 * one.delay_s});
   }
   return replaced(settled, filters, averaging);
+}
+
+std::optional<NoiseIteration> with_delay_for_filter(const NoiseIteration& settled) {
+  LowestAic lowest(settled);
+  for (const FoundFilter& one : filters_of(settled)) {
+    const FreeQuantity delay = free_term(Kind::kSensorDelay, one.channel);
+    NoiseIteration from = settled;
+    std::vector<FreeTerm> added;
+    if (const auto i = place_of(settled.problem.model.quantities, delay.name())) {
+      from.point.coordinates[*i] += one.delay_s;
+    } else {
+      added.push_back({delay, one.delay_s});
+    }
+    lowest.consider(replaced(from, {one}, added));
+  }
+  return std::move(lowest.best());
 }
 
 std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& settled) {

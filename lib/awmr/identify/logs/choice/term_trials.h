@@ -23,10 +23,10 @@ double akaike_of(const NoiseIteration& fit);
 /// (FreeQuantity::is_form()).
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more);
 
-/// The converged fit `settled`, moved to the optimum with white noise in place of drift, from which
-/// trials (tried()) of several terms start. Without this step, each trial would first make the same
-/// search for that optimum.
-NoiseIteration start_of_trials(NoiseIteration settled);
+/// A short fit (one round) without further terms, for comparison with tried(). It ends at the optimum
+/// with white noise in place of drift, from which trials of several terms start: each of them would
+/// else first make the same search for that optimum.
+NoiseIteration start_of_trials(const NoiseIteration& settled);
 
 /// A short fit (one round) of a sample of the windows of `settled`: kSampleWindows evenly spaced
 /// ones, and the first of each log.
@@ -56,6 +56,7 @@ class LowestAic {
   }
   /// The fit that was kept; empty if no fit had a lower AIC than `start`.
   std::optional<NoiseIteration>& best() { return best_; }
+  double criterion() const { return criterion_; }  ///< the lowest AIC so far
 
  private:
   std::optional<NoiseIteration> best_;
@@ -80,6 +81,11 @@ bool may_be_mean(const LogModel& model, double delay_s);
 /// (FreeQuantity::Kind::kAveraging). Empty if no channel has a filter whose
 /// delay can be that of a mean (may_be_mean()) and no averaging. The AIC may be higher.
 std::optional<NoiseIteration> with_averaging_for_filters(const NoiseIteration& settled);
+
+/// Replaces the low-pass filter of one channel by a delay of its readings that is as long as that
+/// of the filter. Reason: without the other lags of the fit, which the search may have added later,
+/// a filter describes the readings better than a delay. Empty if no delay lowers AIC.
+std::optional<NoiseIteration> with_delay_for_filter(const NoiseIteration& settled);
 
 /// Adds a motor lag to a fit with a positive delay of the commands. Empty if there is no such
 /// delay, if the model already has a motor lag, or if AIC does not decrease by more than 10.
