@@ -10,6 +10,7 @@
 #include "awmr/core/json/json_document.h"
 #include "awmr/core/provenance.h"
 #include "awmr/model/gains_file.h"
+#include "awmr/model/gains_json.h"
 #include "awmr/simulate/scenario.h"
 #include "option_values.h"
 

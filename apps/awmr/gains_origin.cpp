@@ -8,7 +8,7 @@
 #include "awmr/core/input_file.h"
 #include "awmr/core/json/json.h"
 #include "awmr/core/json/json_document.h"
-#include "awmr/model/gains_file.h"
+#include "awmr/model/gains_json.h"
 #include "awmr/simulate/scenario.h"
 
 namespace awmr::cli {

@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "awmr/core/json/json.h"
 #include "awmr/core/result.h"
 #include "awmr/model/certificate.h"
 #include "awmr/model/gains.h"
@@ -24,14 +23,6 @@ Result<Gains<double>> read_gains(const std::filesystem::path& path);
 /// Reads `/certificate`, the worst cases of the closed loop; absent if the file has no such key.
 /// Errors: as read_json_file(); a certificate in another form.
 Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path);
-
-/// SHA-256 of the gains in a document of gains.json: of its keys `heading`, `speed` and `observer`,
-/// those in `modes` included.
-std::string sha256_of_gains(const Json& document);
-
-/// True if the gains of this document of gains.json are not those of its certificate, because
-/// `/certificate/gains_sha256` is not their hash. False if the document has no such hash.
-bool has_changed_gains(const Json& document);
 
 /// As read_gains(), and also reads the gains that belong to one mode only (`/modes`). A mode with
 /// gains of its own does not get the observer of `/observer`, only an observer within its own

@@ -1,6 +1,8 @@
 /// Converts gains to and from the JSON of gains.json. Not installed; include from .cpp files only.
 #pragma once
 
+#include <string>
+
 #include "awmr/core/json/json.h"
 #include "awmr/model/gains.h"
 
@@ -34,5 +36,13 @@ inline Json gains_to_json(const Gains<double>& gains) {
 /// Reads `heading`, `speed` and, if present, `observer`. Missing keys and gains out of range
 /// (ranges.h) are added to the faults of `root`.
 Gains<double> gains_from_json(JsonObject& root);
+
+/// SHA-256 of the gains in a document of gains.json: of its keys `heading`, `speed` and `observer`,
+/// those in `modes` included.
+std::string sha256_of_gains(const Json& document);
+
+/// True if the gains of this document of gains.json are not those of its certificate, because
+/// `/certificate/gains_sha256` is not their hash. False if the document has no such hash.
+bool has_changed_gains(const Json& document);
 
 }  // namespace awmr

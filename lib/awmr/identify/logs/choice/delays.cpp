@@ -128,7 +128,7 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
 class TermTrials {
  public:
   TermTrials(const NoiseIteration& settled, const std::vector<CandidateTerm>& terms)
-      : settled_(settled), terms_(terms), start_(start_of_trials(settled)), lowest_(start_) {}
+      : settled_(settled), terms_(terms), start_(start_of_trials(settled)), lowest_(settled) {}
 
   /// Makes the trials, and returns the fit with the lowest AIC. If no term lowers AIC, returns the
   /// fit with the most significant candidate if its score test exceeds 20 standard errors
@@ -188,7 +188,7 @@ class TermTrials {
     NoiseIteration fit = is_first ? trial_from_both(added) : trial(added);
     const bool may_be_wrong = more.is(ExtraForce::kTurnDrag) || more.is_ramp();
     if (may_be_wrong && has_wrong_term(fit, settled_)) return;
-    if (akaike_of(start_) - akaike_of(fit) > kTermAicThreshold && !may_be_wrong) {
+    if (akaike_of(settled_) - akaike_of(fit) > kTermAicThreshold && !may_be_wrong) {
       useful_.push_back(more.name());
     }
     const double found_s = fit.point.coordinates.back();
