@@ -164,6 +164,22 @@ TEST_F(Honesty, OwnGainsAndGainsWrittenByHandHaveNoFinding) {
   EXPECT_THAT(codes_in(run.at("findings")), Not(Contains(kForeignGains)));
 }
 
+TEST_F(Honesty, GainsThatWereChangedAfterTuningHaveNoCertificate) {
+  Json gains = Json::parse(read_all(kept("gains.json")));
+  gains["heading"]["mu"] = 0.9 * gains["heading"]["mu"].get<double>();
+  write_all(path("gains.json"), gains.dump());
+  const Json result =
+      result_of(fmt::format("emit --model {} --gains {} --header-only -o {}", kept("model.json"),
+                            path("gains.json"), path("changed")));
+  EXPECT_THAT(codes_in(result.at("findings")), Contains("gains-changed"));
+  const std::string header = read_all(path("changed") + "/awmr_params.h");
+  EXPECT_THAT(header, Not(HasSubstr("damping")));
+  EXPECT_THAT(header, HasSubstr("stability was not checked"));
+  const Json own = result_of(fmt::format("emit --model {} --gains {} --header-only -o {}",
+                                         kept("model.json"), kept("gains.json"), path("own")));
+  EXPECT_THAT(codes_in(own.at("findings")), Not(Contains("gains-changed")));
+}
+
 TEST_F(Honesty, EmitWarnsOfGainsThatHoldTheHeadingWeakly) {
   const auto codes_of_slower = [&](double share) {
     const Json tuned = Json::parse(read_all(kept("gains.json")));

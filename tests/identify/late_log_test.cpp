@@ -213,9 +213,9 @@ DrivingLog without_first(std::size_t rows, DrivingLog log) {
 TEST_F(LaggingMotors, LeaveTwoValuesOfTheMassOnAStraightDrive) {
   constexpr Truth kStraight{0.9, 1.0, 0.3, 1.0, 0.27};
   TrialData data;
-  data.logs = {without_first(
-      80, drive_with_lag(kStraight, 8, kLag_s,
-                         {.duration_s = 20.0, .rate_hz = 50.0, .straight = true}))};
+  data.logs = {
+      without_first(80, drive_with_lag(kStraight, 8, kLag_s,
+                                       {.duration_s = 20.0, .rate_hz = 50.0, .straight = true}))};
   remove_pose(data.logs.front());
   data.logs.front()[LogChannel::kYawRate].reset();
   Vehicle free = robot();

@@ -407,6 +407,18 @@ TEST(DefaultScenario, TurnsLessWhereTheVehicleTurnsSlowly) {
   EXPECT_LE(scenario.duration_s, 40.0);
 }
 
+TEST(DefaultScenario, TurnsLessUnderASlowLimitOfTheHeadingRate) {
+  const TuneOptions options;
+  const auto steps_at = [&](const HeadingRateChoice& choice) {
+    const auto scenarios = default_tuning_scenarios(paper_model(), options, choice).value();
+    return std::get<HeadingSteps>(scenarios.front().guidance).steps;
+  };
+  const auto slow = steps_at("2");
+  EXPECT_LT(slow[0].psi_rad, radians(15.5));
+  EXPECT_GE(slow[1].t_s, 2.0 * degrees(slow[0].psi_rad) / 2.0);
+  EXPECT_EQ(steps_at("none")[1].t_s, steps_at("1000")[1].t_s);
+}
+
 TEST(Tune, NamesAllUnfitOptionsAtOnce) {
   TuneOptions options = short_options();
   options.margin = 1.0;

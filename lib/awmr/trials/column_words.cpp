@@ -8,7 +8,7 @@
 namespace awmr {
 
 const std::set<std::string> kClockWords{"t",     "time",    "timestamp", "stamp",
-                                         "clock", "elapsed", "duration"};
+                                        "clock", "elapsed", "duration"};
 namespace {
 
 /// A name fits `column` if it has a word of each set in `all` and no word of `none`.

@@ -22,10 +22,11 @@ struct OdometrySteps {
   std::vector<double> rate;    ///< yaw rate, rad/s, or magnitude of the speed, m/s
 };
 
-/// The movements of `pose`, the heading or the position, and the readings of `rate` at the rows with
-/// both. Leaves out rows that repeat the row before, unless the vehicle is at rest: they repeat a
+/// The movements of `pose`, the heading or the position, and the readings of `rate` at the rows
+/// with both. Leaves out rows that repeat the row before, unless the vehicle is at rest: they repeat a
 /// slower sensor. A step longer than three median steps is a gap, and counts as a median step.
-OdometrySteps odometry_steps(const DrivingLog& log, std::span<const LogChannel> pose, LogChannel rate) {
+OdometrySteps odometry_steps(const DrivingLog& log, std::span<const LogChannel> pose,
+                             LogChannel rate) {
   OdometrySteps found;
   std::optional<std::size_t> last;
   for (std::size_t row = 0; row < log.rows(); ++row) {

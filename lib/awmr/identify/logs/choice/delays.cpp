@@ -148,9 +148,10 @@ class TermTrials {
     return lowest_.best() ? std::move(lowest_.best()) : std::move(strongest_);
   }
 
-  /// Adds further terms to `fit`, the result of likeliest(), one at a time, as long as the most
-  /// significant candidate of `fit` that lowered AIC in its own trial lowers AIC here too. Terms with
-  /// independent effects, such as a delay and the bias of a gyroscope, are thus found in one search.
+  /// Adds further terms to `fit`, the result of likeliest(), one at a time: the most significant
+  /// candidate of `fit` that lowered AIC in its own trial, as long as it lowers AIC here too. Terms
+  /// with independent effects, such as a delay and the bias of a gyroscope, are thus found in one
+  /// search.
   NoiseIteration with_independent_terms(NoiseIteration fit) const {
     while (true) {
       const std::vector<CandidateTerm> candidates = candidate_terms(fit.problem, fit.point);
@@ -275,8 +276,8 @@ class TermTrials {
   }
 
   /// True if the candidate is the most significant one, and is Coulomb friction whose trial lowers
-  /// AIC by more than kClear. It is then added before all other terms, because these could imitate it.
-  /// If the true resistance has no Coulomb friction, the comparison of families finds that later.
+  /// AIC by more than kClear. It is then added before all other terms, because these could imitate
+  /// it. If the true resistance has no Coulomb friction, the comparison of families finds that later.
   bool is_clear_friction(const CandidateTerm& candidate) {
     return &candidate == &terms_.front() && candidate.quantity.kind == Kind::kParameter &&
            lowest_.best() && akaike_of(settled_) - akaike_of(*lowest_.best()) > kClear;
@@ -419,7 +420,7 @@ class TermTrials {
   NoiseIteration start_;                     ///< start_of_trials()
   LowestAic lowest_;
   std::optional<NoiseIteration> strongest_;  ///< trial of the candidate that is_beyond_doubt()
-  std::vector<std::string> useful_;  ///< candidates that lowered AIC in their trials
+  std::vector<std::string> useful_;          ///< candidates that lowered AIC in their trials
   std::vector<std::string> partners_;  ///< terms that were tried together with another candidate
   bool has_sensor_delay_ = false;      ///< true: a trial with a sensor's delay lowered AIC
   double delay_s_ = 0.0;               ///< command delay of its trial
@@ -443,9 +444,9 @@ Extended with_both_of_turning(NoiseIteration fit) {
                   std::vector<double>(other.size(), 0.0));
 }
 
-/// Returns a converged fit with one or more further free terms, selected by trials. Empty if no term
-/// lowers AIC enough (settled_if_better()), or if a term is rejected (has_wrong_term()). For long
-/// logs, the trials first use a sample of the windows, to save time.
+/// Returns a converged fit with one or more further free terms, selected by trials. Empty if no
+/// term lowers AIC enough (settled_if_better()), or if a term is rejected (has_wrong_term()). For
+/// long logs, the trials first use a sample of the windows, to save time.
 std::optional<NoiseIteration> with_more_terms(const NoiseIteration& settled) {
   const std::vector<CandidateTerm> terms = candidate_terms(settled.problem, settled.point);
   if (terms.empty()) return std::nullopt;

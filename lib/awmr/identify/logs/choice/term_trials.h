@@ -23,9 +23,9 @@ double akaike_of(const NoiseIteration& fit);
 /// (FreeQuantity::is_form()).
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more);
 
-/// A short fit (one round) without further terms, for comparison with tried(). It ends at the optimum
-/// with white noise in place of drift, from which trials of several terms start: each of them would
-/// else first make the same search for that optimum.
+/// A short fit (one round) without further terms. It ends at the optimum with white noise in place
+/// of drift, from which trials (tried()) of several terms start: each of them would else first make
+/// the same search for that optimum.
 NoiseIteration start_of_trials(const NoiseIteration& settled);
 
 /// A short fit (one round) of a sample of the windows of `settled`: kSampleWindows evenly spaced
