@@ -174,7 +174,7 @@ void delay_by(std::size_t rows, Measured& channel) {
 
 TEST_F(LaggingMotors, AreFoundBesideALateSpeedAndPosition) {
   constexpr std::size_t kRows = 6;
-  DrivingLog log = drive_of({.duration_s = 20.0, .rate_hz = 50.0});
+  DrivingLog log = drive_of({.duration_s = 10.0, .rate_hz = 50.0});
   for (const LogChannel c : {LogChannel::kSpeed, LogChannel::kX, LogChannel::kY}) {
     delay_by(kRows, *log[c]);
   }
