@@ -67,8 +67,8 @@ void refuse_yaw_of_car(LogStage& stage) {
 /// significant. Decides between wheel slip and late commands (decide_slip()), and whether the
 /// steering stop limits the command or the angle (decide_stop()). Then checks whether the logs
 /// decide between a lag and the inertia, and whether the fit describes the logs, which can withdraw
-/// intervals. Adds the reports of all fits and the findings
-/// to `stage`. `power_law`, `first`: as in choose_model().
+/// intervals. Adds the reports of all fits and the findings to `stage`. `power_law`, `first`: as in
+/// choose_model().
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                        const IdentifyOptions& options, FamilyFit first, LogStage& stage) {
   const FamilyChoice& surge = options.surge_family;

@@ -11,7 +11,7 @@ namespace {
 
 using Kind = FreeQuantity::Kind;
 
-/// What the user can do to decide between the two values of a lag.
+/// The measurement that decides between the two values of a lag.
 std::string remedy(const FreeQuantity& lag) {
   if (lag.is(Kind::kMotorLag)) {
     return "measure the motors' lag on the bench and set motor.time_constant_s in the vehicle "

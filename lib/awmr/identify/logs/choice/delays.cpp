@@ -128,7 +128,7 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
 class TermTrials {
  public:
   TermTrials(const NoiseIteration& settled, const std::vector<CandidateTerm>& terms)
-      : settled_(settled), terms_(terms), start_(start_of_trials(settled)), lowest_(settled) {}
+      : settled_(settled), terms_(terms), start_(tried(settled, {})), lowest_(settled) {}
 
   /// Makes the trials, and returns the fit with the lowest AIC. If no term lowers AIC, returns the
   /// fit with the most significant candidate if its score test exceeds 20 standard errors
@@ -277,7 +277,8 @@ class TermTrials {
 
   /// True if the candidate is the most significant one, and is Coulomb friction whose trial lowers
   /// AIC by more than kClear. It is then added before all other terms, because these could imitate
-  /// it. If the true resistance has no Coulomb friction, the comparison of families finds that later.
+  /// it. If the true resistance has no Coulomb friction, the comparison of families finds that
+  /// later.
   bool is_clear_friction(const CandidateTerm& candidate) {
     return &candidate == &terms_.front() && candidate.quantity.kind == Kind::kParameter &&
            lowest_.best() && akaike_of(settled_) - akaike_of(*lowest_.best()) > kClear;
@@ -417,7 +418,7 @@ class TermTrials {
 
   const NoiseIteration& settled_;
   const std::vector<CandidateTerm>& terms_;  ///< not empty
-  NoiseIteration start_;                     ///< start_of_trials()
+  NoiseIteration start_;                     ///< without a further term
   LowestAic lowest_;
   std::optional<NoiseIteration> strongest_;  ///< trial of the candidate that is_beyond_doubt()
   std::vector<std::string> useful_;          ///< candidates that lowered AIC in their trials

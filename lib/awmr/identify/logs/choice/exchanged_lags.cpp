@@ -119,14 +119,11 @@ std::vector<ExchangedStart> exchanged_starts(const LogProblem& problem, const Se
 
 std::optional<NoiseIteration> with_exchanged_lag(const NoiseIteration& settled) {
   constexpr double kOtherOptimum = 1.0;  // decrease of AIC that is not due to the end of a search
-  const auto short_fit = [&](const SearchPoint& from) {
-    return settle_noise(with_white_noise(settled.problem), from, {.most = 1});
-  };
   const std::vector<ExchangedStart> starts = exchanged_starts(settled.problem, settled.point);
   if (starts.empty()) return std::nullopt;
-  LowestAic lowest(start_of_trials(settled));
+  LowestAic lowest(tried(settled, {}));
   for (const ExchangedStart& start : starts) {
-    lowest.consider(short_fit(start.point), kOtherOptimum);
+    lowest.consider(tried({.problem = settled.problem, .point = start.point}, {}), kOtherOptimum);
   }
   if (!lowest.best()) return std::nullopt;
   NoiseIteration fit =

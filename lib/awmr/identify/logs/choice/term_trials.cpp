@@ -95,10 +95,6 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
   return settle_noise(std::move(from.problem), std::move(from.point), {.most = 1});
 }
 
-NoiseIteration start_of_trials(const NoiseIteration& settled) {
-  return settle_noise(with_white_noise(settled.problem), settled.point, {.most = 1});
-}
-
 NoiseIteration sample_of(const NoiseIteration& settled) {
   const std::vector<FitWindow>& windows = settled.problem.windows;
   const std::vector<std::size_t> even = spread(windows.size(), kSampleWindows);

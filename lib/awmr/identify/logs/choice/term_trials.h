@@ -20,13 +20,9 @@ double akaike_of(const NoiseIteration& fit);
 /// (one round). The fit starts with white noise in place of drift, because drift could absorb the
 /// effect of the terms. Initial guesses are limited to three large changes
 /// (FreeQuantity::large_change), except for quantities that only describe a form
-/// (FreeQuantity::is_form()).
+/// (FreeQuantity::is_form()). Trials of several terms start at a fit without terms (`more` empty):
+/// each of them would else first search the optimum with white noise.
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more);
-
-/// A short fit (one round) without further terms. It ends at the optimum with white noise in place
-/// of drift, from which trials (tried()) of several terms start: each of them would else first make
-/// the same search for that optimum.
-NoiseIteration start_of_trials(const NoiseIteration& settled);
 
 /// A short fit (one round) of a sample of the windows of `settled`: kSampleWindows evenly spaced
 /// ones, and the first of each log.
